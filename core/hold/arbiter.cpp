@@ -211,6 +211,16 @@ void bePatient(bool rests, double ms, double calmMs, HoldMemory& memory) {
   if (!rests) memory.patience = std::max(1.0, memory.patience * std::exp2(-ms / calmMs));
 }
 
+/// Notes to which place the allowed error is to go, so that its meshes are named. Returns false while a finer
+/// one has to wait for them.
+bool meshesReady(const HoldGiven& given, std::uint8_t from, std::uint8_t to, double ms, HoldMemory& memory) {
+  const bool named = memory.wantedError < from;
+  memory.wantedError = to;
+  const bool waits = to < from && (!named || given.meshesLeft > 0);
+  memory.waitedMs = waits ? memory.waitedMs + ms : 0;
+  return !waits || memory.waitedMs >= kMostBuildingMs;
+}
+
 /// Averages the model's uncertainty into the memory, because a single late image must not lower anything.
 void noteBand(double bandMs, HoldMemory& memory) {
   constexpr double kShare = 0.02;
@@ -295,10 +305,7 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     memory.calmMs = 0;
     // Of a view that sees little ground a finer cut can be the quicker one, because fewer of its nodes reach
     // into it. It waits for its meshes like one that is restored.
-    const bool finer = memory.begun && now.error < before.error, named = memory.wantedError == now.error;
-    memory.wantedError = now.error;
-    memory.waitedMs = finer && named ? memory.waitedMs + passedMs : 0;
-    if (finer && (!named || (given.meshesLeft > 0 && memory.waitedMs < kMostBuildingMs))) now = before;
+    if (!meshesReady(given, before.error, now.error, passedMs, memory) && memory.begun) now = before;
     if (memory.restoredMs < kTooEarlyMs) memory.patience = std::min(2 * memory.patience, kMostPatience);
     memory.restoredMs = kInfinity;
   } else {
@@ -307,15 +314,12 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     const bool worth = wanted == HoldSteps{} ? before != wanted : won > kWorthwhile * kept && won > 0;
     const bool room = worth && search.timeAt(wanted) <= d.limitMs;
     memory.calmMs = room ? memory.calmMs + ms : 0;
-    memory.wantedError = room ? wanted.error : before.error;
-    const bool waits = memory.wantedError != before.error && given.meshesLeft > 0;
-    memory.waitedMs = waits ? memory.waitedMs + passedMs : 0;
+    const bool ready = meshesReady(given, before.error, room ? wanted.error : before.error, passedMs, memory);
     d.reason = HoldReason::held;
     const bool ample = search.timeAt(before) < kAmple * d.limitMs;
     if (room && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
-      const bool built = !waits || memory.waitedMs >= kMostBuildingMs;
       const bool stays = rests || ample || memory.calmMs >= kTurningCalmMs;
-      const HoldSteps nearer = raised(before, wanted, built && stays);
+      const HoldSteps nearer = raised(before, wanted, ready && stays);
       if (nearer != before && search.timeAt(nearer) <= d.limitMs)
         now = nearer, d.reason = HoldReason::restored, memory.restoredMs = 0;
     }

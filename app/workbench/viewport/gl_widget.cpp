@@ -31,8 +31,7 @@ GlWidget::~GlWidget() {
 /// OpenGL.
 bool GlWidget::begin() {
   if (failed_) return false;
-  const bool first = context_ == nullptr;
-  if (first) {
+  if (context_ == nullptr) {
     context_ = std::make_unique<QOpenGLContext>();
     failed_ = !context_->create();
     if (failed_) {
@@ -41,8 +40,9 @@ bool GlWidget::begin() {
     }
   }
   if (!makeCurrent()) return false;
+  const bool first = framebuffer_ == nullptr;
   const QSize wanted = sizePx().expandedTo({1, 1});
-  if (framebuffer_ == nullptr || framebuffer_->size() != wanted)
+  if (first || framebuffer_->size() != wanted)
     framebuffer_ =
         std::make_unique<QOpenGLFramebufferObject>(wanted, QOpenGLFramebufferObject::CombinedDepthStencil);
   if (first) initializeGL();
@@ -80,9 +80,13 @@ QImage GlWidget::grabFramebuffer() {
   return image;
 }
 
-void GlWidget::paintEvent(QPaintEvent*) {
+bool GlWidget::isGrabbed() const {
   QPoint ignored;
-  if (redirected(&ignored) != nullptr) {  // a picture is taken of the window
+  return redirected(&ignored) != nullptr;
+}
+
+void GlWidget::paintEvent(QPaintEvent*) {
+  if (isGrabbed()) {
     const QImage image = grabFramebuffer();
     QPainter(this).drawImage(0, 0, image);
     return;

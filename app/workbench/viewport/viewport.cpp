@@ -119,8 +119,7 @@ qint64 Viewport::controlsFirstMs() const {
 }
 
 void Viewport::paintEvent(QPaintEvent* event) {
-  QPoint ignored;
-  const bool fits = sizePx() == paintedPx_ && redirected(&ignored) == nullptr;
+  const bool fits = sizePx() == paintedPx_ && !isGrabbed();
   // Nothing changed: the place was covered and is seen again.
   if (fits && !dirty_) return showAgain();
   const qint64 wait = controlsFirstMs();

@@ -47,8 +47,7 @@ class FrameHold {
   /// Names the nodes of tiles or of static trees that coming images may draw, the likeliest first:
   /// those of the view after `drawn` that is farthest ahead; and the same at the allowed error to which the
   /// arbiter will return in one step, or else at twice the error, to which it may have to go. A name may come
-  /// twice. `drawn` is the last request as it was drawn. It stays valid until the
-  /// next call.
+  /// twice. `drawn` is the last request as it was drawn. What is returned is valid until the next call.
   std::span<const std::uint32_t> nodesAhead(const FrameRequest& drawn, std::span<const ComingEye> coming);
   /// Tells how many of these names there was no time for. Without this the arbiter waits for none.
   void setMeshesLeft(std::size_t left) { meshesLeft_ = left; }
