@@ -189,7 +189,7 @@ void HoldPilot::drawNext() {
   lookMs_.push_back(
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   if (flight_.fixed) fix(request, *flight_.fixed);
-  const FrameResult result = stage_.draw(request);
+  const FrameResult result = stage_.fly(request);
   const FrameCost cost = session_.finished(result, state.time);
   session_.builtAhead(stage_.buildAhead(session_.nodesAhead(request), session_.aheadMs()).left);
   run_.ms.push_back(workMs(cost));

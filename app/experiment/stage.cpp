@@ -47,18 +47,25 @@ Stage::~Stage() {
   renderer_.release();
 }
 
-FrameResult Stage::draw(const FrameRequest& request) {
+FrameResult Stage::drawToItsEnd(FrameRequest request) {
   offscreen_->makeCurrent();
   if (request.view.widthPx != width_ || request.view.heightPx != height_) {
     width_ = request.view.widthPx;
     height_ = request.view.heightPx;
     offscreen_->resize(width_, height_);
   }
-  FrameRequest measured = request;
-  measured.waitForPicture = true;
-  measured.waitForPages = true;
-  measured.reproducible = true;
-  return renderer_.draw(measured, offscreen_->framebuffer());
+  request.waitForPicture = true;
+  return renderer_.draw(request, offscreen_->framebuffer());
+}
+
+FrameResult Stage::draw(const FrameRequest& request) {
+  FrameRequest alone = request;
+  alone.waitForPages = alone.reproducible = true;
+  return drawToItsEnd(alone);
+}
+
+FrameResult Stage::fly(const FrameRequest& request) {
+  return drawToItsEnd(request);
 }
 
 scene::BuiltAhead Stage::buildAhead(std::span<const std::uint32_t> nodes, double withinMs) {

@@ -20,6 +20,9 @@ constexpr std::size_t kCoarse = kPlacesPerOctave / 2;
 constexpr double kTurningReserve = 0.06, kSteadyReserve = 0.03;
 /// Head-room must win at least this part of the loss: less is not worth a change.
 constexpr double kWorthwhile = 0.1;
+/// A setting with another allowed error exchanges levels, so its loss counts for so many times as much.
+constexpr double kExchange = 1.25;
+constexpr std::size_t kNoPlace = kErrorPlaces + 1;
 /// While the view turns, the allowed error returns only after head-room for so long, which is longer than a
 /// glance lasts, because the next view may need what this one does not; or if the image takes less than this
 /// part of the limit, because then too much was given up.
@@ -133,8 +136,9 @@ HoldSteps within(const Choice& c, const HoldSteps& s) {
 
 class Search {
  public:
-  Search(const HoldGiven& given, const Choice& choice, bool fine)
-      : given_(given), choice_(choice), fine_(fine) {}
+  /// `kept` is the place of the allowed error in the image before, or kNoPlace.
+  Search(const HoldGiven& given, const Choice& choice, bool fine, std::size_t kept)
+      : given_(given), choice_(choice), fine_(fine), kept_(kept) {}
 
   double timeAt(const HoldSteps& s) const { return predictAt(s).total(); }
   StageTimes predictAt(const HoldSteps& s) const {
@@ -142,14 +146,15 @@ class Search {
   }
 
   /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do, the one that
-  /// loses least; of those that lose the same, the quickest. If none does, the quickest of all.
+  /// loses least, with kExchange; of those that lose the same, the quickest. If none does, the quickest of
+  /// all.
   HoldSteps best(double limitMs) const {
     if (timeAt({}) <= limitMs) return {};
     HoldSteps best{}, quickest{};
     double bestLoss = 0, bestMs = 0, quickestMs = 0;
     bool found = false, any = false;
     forEach([&](const HoldSteps& s) {
-      const double loss = lossAt(choice_, s);
+      const double loss = (s.error == kept_ ? 1 : kExchange) * lossAt(choice_, s);
       if (found && loss > bestLoss) return;
       const double ms = timeAt(s);
       if (!any || ms < quickestMs) quickest = s, quickestMs = ms, any = true;
@@ -162,17 +167,23 @@ class Search {
  private:
   template <class Visit>
   void forEach(const Visit& visit) const {
-    HoldSteps s;
     const Errors& e = choice_.error;
-    for (s.error = 0; s.error < e.size; s.error = static_cast<std::uint8_t>(e.next(s.error, fine_)))
-      for (s.renderScale = 0; s.renderScale < choice_.scale.size; ++s.renderScale)
-        for (s.particles = 0; s.particles < choice_.particles.size; ++s.particles)
-          for (s.blur = 0; s.blur < choice_.blur.size; ++s.blur) visit(s);
+    for (std::size_t error = 0; error < e.size; error = e.next(error, fine_)) forEachOf(error, visit);
+    if (kept_ != kNoPlace) forEachOf(kept_, visit);
+  }
+  template <class Visit>
+  void forEachOf(std::size_t error, const Visit& visit) const {
+    HoldSteps s;
+    s.error = static_cast<std::uint8_t>(error);
+    for (s.renderScale = 0; s.renderScale < choice_.scale.size; ++s.renderScale)
+      for (s.particles = 0; s.particles < choice_.particles.size; ++s.particles)
+        for (s.blur = 0; s.blur < choice_.blur.size; ++s.blur) visit(s);
   }
 
   const HoldGiven& given_;
   const Choice& choice_;
   bool fine_;
+  std::size_t kept_;
 };
 
 /// Returns the steps one image nearer to `to`, which are fewer: blur at once, the error too if it may return,
@@ -192,12 +203,12 @@ double passed(const HoldGiven& given, HoldMemory& memory) {
   return ms > 0 ? ms : 0;
 }
 
-/// Notes the triangles of this image, and returns whether they have been steady for so long.
-bool steady(double triangles, double ms, double longMs, HoldMemory& memory) {
-  const bool rests = memory.begun && std::abs(triangles - memory.triangles) <= kSteady * memory.triangles;
+/// Notes the triangles of this image, and returns whether they are those of the last one.
+bool steady(double triangles, double ms, HoldMemory& memory) {
+  const bool steady = memory.begun && std::abs(triangles - memory.triangles) <= kSteady * memory.triangles;
   memory.triangles = triangles;
-  memory.steadyMs = rests ? memory.steadyMs + ms : 0;
-  return memory.begun && memory.steadyMs >= longMs;
+  memory.steadyMs = steady ? memory.steadyMs + ms : 0;
+  return steady;
 }
 
 /// Follows how long the last restoration has lasted. One that lasts ends the patience at once, and a view
@@ -289,14 +300,16 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
   d.bandMs = given.cost.bandMs;
 
   const Choice choice = choiceOf(given, p);
-  const bool rests = steady(given.triangles[0], ms, p.calm.value(), memory);
-  const double aim = d.limitMs * (1 - (rests ? kSteadyReserve : kTurningReserve));
-  const Search search(given, choice, rests);
+  const bool isSteady = steady(given.triangles[0], ms, memory);
+  const bool rests = memory.begun && memory.steadyMs >= p.calm.value();
+  const auto aim = [&](bool still) { return d.limitMs * (1 - (still ? kSteadyReserve : kTurningReserve)); };
   const HoldSteps before = within(choice, memory.steps);
+  const std::size_t kept = memory.begun ? before.error : kNoPlace;
+  const Search search(given, choice, rests, kept);
   HoldSteps now = before;
   bePatient(rests, ms, p.calm.value(), memory);
   if (!memory.begun || search.timeAt(before) > d.limitMs) {
-    now = search.best(memory.begun ? aim : d.limitMs);
+    now = search.best(memory.begun ? aim(rests) : d.limitMs);
     // Where nothing fits, a setting that is next to no quicker is not worth a change.
     if (memory.begun && search.timeAt(now) > d.limitMs &&
         search.timeAt(before) <= kAlike * search.timeAt(now))
@@ -309,9 +322,11 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     if (memory.restoredMs < kTooEarlyMs) memory.patience = std::min(2 * memory.patience, kMostPatience);
     memory.restoredMs = kInfinity;
   } else {
-    const HoldSteps wanted = search.best(aim);
-    const double kept = lossAt(choice, before), won = kept - lossAt(choice, wanted);
-    const bool worth = wanted == HoldSteps{} ? before != wanted : won > kWorthwhile * kept && won > 0;
+    // View and head-room must both be calm. Head-room of a view at rest is looked at from its first image on,
+    // so that the one calm does not wait for the other.
+    const HoldSteps wanted = Search(given, choice, isSteady, kept).best(aim(isSteady));
+    const double lost = lossAt(choice, before), won = lost - lossAt(choice, wanted);
+    const bool worth = wanted == HoldSteps{} ? before != wanted : won > kWorthwhile * lost && won > 0;
     const bool room = worth && search.timeAt(wanted) <= d.limitMs;
     memory.calmMs = room ? memory.calmMs + ms : 0;
     const bool ready = meshesReady(given, before.error, room ? wanted.error : before.error, passedMs, memory);

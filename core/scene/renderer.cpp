@@ -14,6 +14,7 @@
 #include "core/scene/passes/lines.h"
 #include "core/scene/passes/node_pass.h"
 #include "core/scene/passes/precipitation_pass.h"
+#include "core/scene/passes/scale_up_pass.h"
 #include "core/scene/passes/symbology_pass.h"
 #include "core/scene/passes/weather_precipitation.h"
 #include "core/scene/terrain/patches/patch_drawer.h"
@@ -53,13 +54,14 @@ struct Renderer::Impl {
 
   /// What lives in the context, but for the terrain.
   struct Gl {
-    Gl(ScenePasses passes, bool software) : blur(software), graph(std::move(passes)) {}
+    Gl(ScenePasses passes, bool software) : blur(software), scaleUp(software), graph(std::move(passes)) {}
     FrameBuffer frame;
     FrameBuffer small;  ///< the scene before it is scaled up, if the request asks for that
     NodeTarget nodes;
     LineBuffer lineBuffer;
     PrecipitationPass precipitation;
     BlurPass blur;
+    ScaleUpPass scaleUp;
     SymbologyPass symbology;
     StageClock clock;
     SceneGraph graph;
@@ -187,11 +189,7 @@ FrameCounters Renderer::Impl::blurScene(const FrameRequest& r) {
 void Renderer::Impl::scaleUp() {
   if (&scene() == &gl->frame) return;
   gl->frame.resize(lastView.widthPx, lastView.heightPx);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, gl->small.id());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, gl->frame.id());
-  glDisable(GL_SCISSOR_TEST);
-  glBlitFramebuffer(0, 0, lastScene.widthPx, lastScene.heightPx, 0, 0, lastView.widthPx, lastView.heightPx,
-                    GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  gl->scaleUp.draw(gl->small, gl->frame);
   glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
 }
 

@@ -50,7 +50,7 @@ class BenchScene {
     auto created = scene::Offscreen::create(kWidth, kHeight);
     if (!created) return;
     offscreen_ = std::move(created).value();
-    ready_ = renderer_.initialize().usable;
+    gl_ = renderer_.initialize();
     renderer_.setTerrain(database_);
   }
   ~BenchScene() {
@@ -60,7 +60,8 @@ class BenchScene {
   }
   BenchScene(const BenchScene&) = delete;
   BenchScene& operator=(const BenchScene&) = delete;
-  bool ready() const { return ready_; }
+  bool ready() const { return gl_.usable; }
+  bool softwareRasteriser() const { return gl_.software; }
   void use(std::shared_ptr<const terrain::Database> database) {
     database_ = std::move(database);
     offscreen_->makeCurrent();
@@ -91,7 +92,7 @@ class BenchScene {
   std::shared_ptr<const terrain::Database> database_;
   std::unique_ptr<scene::Offscreen> offscreen_;
   scene::Renderer renderer_;
-  bool ready_ = false;
+  scene::GlReport gl_;
 };
 
 /// Milliseconds of two ways, measured in turn after one pair that is not counted.

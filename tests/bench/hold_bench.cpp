@@ -1,12 +1,15 @@
 #include <memory>
 
 #include "bench_scene.h"
+#include "core/scene/gl/frame_buffer.h"
+#include "core/scene/gl/gl_api.h"
+#include "core/scene/passes/scale_up_pass.h"
 #include "row.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/scene/load_index.h"
 #include "trimtab/session/session.h"
 
-/// Group `hold`: what holding a budget costs, and what building ahead of the images wins.
+/// Group `hold`: what holding a budget costs, and what building ahead of the images and scaling up win.
 
 namespace trimtab::bench {
 namespace {
@@ -99,8 +102,32 @@ void look(Report& report, const std::shared_ptr<const terrain::Database>& terrai
                                   .peerValue = image,
                                   .peerFrom = "run"}));
   };
-  add("hold.look", "a decision, a request, and the load of six views counted for every allowed error", request);
+  add("hold.look", "a decision, a request, and the load of six views counted for every allowed error",
+      request);
   add("hold.ahead", "the nodes of coming images named", names);
+}
+
+void scaleUp(Report& report) {
+  scene::FrameBuffer image;
+  image.resize(BenchScene::kWidth, BenchScene::kHeight);
+  scene::ScaleUpPass own(true), blit(false);
+  for (const int percent : {50, 90}) {
+    scene::FrameBuffer small;
+    small.resize(BenchScene::kWidth * percent / 100, BenchScene::kHeight * percent / 100);
+    const auto ms = [&](scene::ScaleUpPass& pass) {
+      glFinish();
+      const auto start = std::chrono::steady_clock::now();
+      pass.draw(small, image);
+      glFinish();
+      return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    };
+    const Pairs pairs = inTurn(
+        report.quick() ? 9 : 101, [&](int) { return ms(own); }, [&](int) { return ms(blit); });
+    const std::string size = std::to_string(small.width()) + " x " + std::to_string(small.height());
+    report.add(ratioAtMost(0.7, rowOf(pairs, {.id = "hold.scale_up_" + std::to_string(percent),
+                                              .what = "an image of " + size + " scaled up to 1280 x 720",
+                                              .peer = "the same by a linear blit of GL"})));
+  }
 }
 
 }  // namespace
@@ -114,5 +141,6 @@ int main(int argc, char** argv) {
   bench::BenchScene scene(terrain);
   if (report.wants("exchange") && scene.ready()) bench::exchange(report, terrain, scene);
   if (report.wants("look") && scene.ready()) bench::look(report, terrain, scene);
+  if (report.wants("scale_up") && scene.softwareRasteriser()) bench::scaleUp(report);
   return report.finish();
 }

@@ -206,8 +206,8 @@ TEST(Arbiter, givesUpNoMoreThanTheBudgetAsksOnceTheViewIsSteady) {
       d = arbitrate(g, p, memory);
     }
     EXPECT_LE(d.heldMs.total(), d.limitMs) << view;
-    // What restoring leaves free, and one eighth of an octave of the triangles.
-    EXPECT_GE(d.heldMs.total(), d.limitMs * 0.97 - 0.084 * trianglesMs) << view;
+    // What restoring leaves free, and a quarter of an octave of the triangles: less is no exchange worth.
+    EXPECT_GE(d.heldMs.total(), d.limitMs * 0.97 - 0.16 * trianglesMs) << view;
   }
 }
 
@@ -231,6 +231,31 @@ TEST(Arbiter, changesLevelsTwiceAtMostInAGlance) {
   }
   EXPECT_GT(changes, 0);
   EXPECT_LE(changes, 2);
+}
+
+/// A load that rises and falls by a third, in a view that turns: the other levers follow it.
+TEST(Arbiter, leavesLevelsAloneWhereOtherLeversServeNearlyAsWell) {
+  constexpr int kFirst = 100;
+  int exchanges = 0, changes = 0;
+  for (double budgetMs = 10; budgetMs < 26; ++budgetMs) {
+    HoldMemory memory;
+    HeldLevers last;
+    for (int i = 0; i < 2000; ++i) {
+      HoldGiven g = given(i / 60.0);
+      g.budgetMs = budgetMs;
+      const double load = 1 + 0.33 * std::sin(i / 60.0);
+      for (double& triangles : g.triangles) triangles *= load * (i % 2 == 0 ? 1 : 1.02);
+      g.cost.perTriangle *= 4;
+      g.cost.perGroundMpx *= 0.5 * load;
+      const HoldDecision d = arbitrate(g, enabled(), memory);
+      exchanges += i > kFirst && d.held.errorPx != last.errorPx;
+      changes += i > kFirst && d.held != last;
+      last = d.held;
+    }
+  }
+  std::printf("%d of %d changes exchange levels\n", exchanges, changes);
+  EXPECT_GT(changes, 500);
+  EXPECT_LE(exchanges, 50) << "159 where levels are exchanged for any gain";
 }
 
 TEST(Arbiter, anUnknownBudgetOrCostChangesNothing) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "arbiter_input.h"
 
@@ -97,6 +98,30 @@ TEST(Arbiter, restoresWithoutAnyImageOverTheLimit) {
       EXPECT_LE(d.heldMs.total(), d.limitMs + 1e-9) << i;
     }
   }
+}
+
+TEST(Arbiter, aViewThatComesToRestIsRestoredAfterOneCalm) {
+  HoldMemory memory;
+  double restedS = 0, restoredS = 0;
+  HoldParameters p = enabled();
+  p.renderScaleMinimum = Ratio{1};
+  double held = 0;
+  for (int i = 0; i < 300; ++i) {
+    HoldGiven g = given(i / 100.0);
+    g.budgetMs = 38;
+    const bool turns = i < 100;
+    for (double& triangles : g.triangles) triangles *= turns ? (i % 2 == 1 ? 2.1 : 2) : 1.55;
+    const double errorPx = arbitrate(g, p, memory).held.errorPx;
+    if (turns)
+      restedS = g.timeS;
+    else if (restoredS == 0 && errorPx < held)
+      restoredS = g.timeS;
+    held = errorPx;
+  }
+  ASSERT_GT(restoredS, 0);
+  EXPECT_GT(held, 1) << "all fits, so coarse settings serve too";
+  EXPECT_NE(std::fmod(8 * std::log2(held), 4), 0) << "half an octave, so coarse settings serve too";
+  EXPECT_NEAR(1e3 * (restoredS - restedS), p.calm.value(), 35);
 }
 
 /// A machine that is now quicker and now slower, by more than the arbiter's reserve: without patience the

@@ -11,10 +11,12 @@
 /// Keeps the predicted time of each image within the budget.
 ///
 /// Each image, the arbiter looks at every setting of the levers that it may move, some thousands, and
-/// takes the one that loses least among those that fit. Prediction comes first and measurement only corrects
-/// the model, so there is nothing to oscillate: Funkhouser and Sequin, "Adaptive Display Algorithm for
-/// Interactive Frame Rates During Visualization of Complex Virtual Environments", SIGGRAPH 1993. Their
-/// benefit of an object is here the loss of the image, in the mean FLIP that leverage measures.
+/// takes the one that loses least among those that fit. A setting with another allowed error than the image
+/// before counts as losing a quarter more, because it exchanges levels of detail. Prediction comes first and
+/// measurement only corrects the model, so there is nothing to oscillate: Funkhouser and Sequin, "Adaptive
+/// Display Algorithm for Interactive Frame Rates During Visualization of Complex Virtual Environments",
+/// SIGGRAPH 1993. Their benefit of an object is here the loss of the image, in the mean FLIP that leverage
+/// measures.
 ///
 /// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
 /// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
