@@ -340,13 +340,12 @@ Result<Report> runHold(const Setup& setup) {
   char text[900];
   std::snprintf(
       text, sizeof text,
-      "%s, preset %s, %d x %d. The budget is %s. Work time of each image, "
-      "the modes in turns image by image, each with a renderer of its own that builds ahead between images; "
-      "FLIP of %zu images against the finest levels, flip_smeared with both smeared by the "
-      "exposure. slowest_gain is the slowest image of off over that of the mode. settled_ms is the time "
-      "from "
-      "the end of the strain until the levers stay. The model of hold has flown a sweep from another place "
-      "before. Fixed settings fly one after the other.",
+      "%s, preset %s, %d x %d. The budget is %s. Work time of each image, the modes in turns image by image, "
+      "each with a renderer of its own that builds ahead between images and waits for no page; FLIP of %zu "
+      "images, with all pages, against the finest levels, flip_smeared with both smeared by the exposure. "
+      "slowest_gain is the slowest image of off over that of the mode. settled_ms is the time from the end "
+      "of the strain until the levers stay. The model of hold has flown a sweep from another place before. "
+      "Fixed settings fly one after the other.",
       setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, budget, kMeasured);
   report.notes.insert(report.notes.begin(), text);
   return report;

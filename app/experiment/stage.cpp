@@ -47,7 +47,7 @@ Stage::~Stage() {
   renderer_.release();
 }
 
-FrameResult Stage::drawToItsEnd(FrameRequest request) {
+FrameResult Stage::drawAndWait(FrameRequest request) {
   offscreen_->makeCurrent();
   if (request.view.widthPx != width_ || request.view.heightPx != height_) {
     width_ = request.view.widthPx;
@@ -61,11 +61,11 @@ FrameResult Stage::drawToItsEnd(FrameRequest request) {
 FrameResult Stage::draw(const FrameRequest& request) {
   FrameRequest alone = request;
   alone.waitForPages = alone.reproducible = true;
-  return drawToItsEnd(alone);
+  return drawAndWait(std::move(alone));
 }
 
 FrameResult Stage::fly(const FrameRequest& request) {
-  return drawToItsEnd(request);
+  return drawAndWait(request);
 }
 
 scene::BuiltAhead Stage::buildAhead(std::span<const std::uint32_t> nodes, double withinMs) {

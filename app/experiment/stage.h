@@ -23,11 +23,11 @@ class Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  /// Draws an image that depends on the request alone, and so does what is counted: all that it needs is read
-  /// and made at once.
+  /// Draws an image that, like its counts, depends on the request alone: all that it needs is read and made
+  /// at once.
   FrameResult draw(const FrameRequest& request);
-  /// Draws the next image of a flight as an image generator does: images share the work of what they need,
-  /// and none waits for pages.
+  /// Draws the next image of a flight as an image generator does: surfaces are made over several images, and
+  /// none waits for pages.
   FrameResult fly(const FrameRequest& request);
   /// Builds meshes for coming images, as Renderer::buildAhead does.
   scene::BuiltAhead buildAhead(std::span<const std::uint32_t> nodes, double withinMs);
@@ -46,7 +46,7 @@ class Stage {
 
  private:
   Stage() = default;
-  FrameResult drawToItsEnd(FrameRequest request);
+  FrameResult drawAndWait(FrameRequest request);
   std::unique_ptr<scene::Offscreen> offscreen_;
   scene::Renderer renderer_;
   scene::GlReport gl_;

@@ -18,9 +18,10 @@ constexpr std::size_t kCoarse = kPlacesPerOctave / 2;
 /// Lowering aims this share of the limit below it, so that a load that keeps rising does not lower the level
 /// of detail again and again. In a steady view no load rises.
 constexpr double kTurningReserve = 0.06, kSteadyReserve = 0.03;
-/// Head-room must win at least this part of the loss: less is not worth a change.
+/// Head-room must win more than this part of the loss: less is not worth a change.
 constexpr double kWorthwhile = 0.1;
-/// A setting with another allowed error exchanges levels, so its loss counts for so many times as much.
+/// A setting with another allowed error exchanges levels, so its loss counts for so many times as much, and
+/// head-room must win more than a fifth by it.
 constexpr double kExchange = 1.25;
 constexpr std::size_t kNoPlace = kErrorPlaces + 1;
 /// While the view turns, the allowed error returns only after head-room for so long, which is longer than a
@@ -136,7 +137,7 @@ HoldSteps within(const Choice& c, const HoldSteps& s) {
 
 class Search {
  public:
-  /// `kept` is the place of the allowed error in the image before, or kNoPlace.
+  /// `kept` is the place of the allowed error in the image before; kNoPlace if it cannot stay there.
   Search(const HoldGiven& given, const Choice& choice, bool fine, std::size_t kept)
       : given_(given), choice_(choice), fine_(fine), kept_(kept) {}
 
@@ -145,17 +146,18 @@ class Search {
     return predict(given_.cost, loadOf(given_, leversAt(choice_, s), choice_.error.triangles[s.error]));
   }
 
-  /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do, the one that
-  /// loses least, with kExchange; of those that lose the same, the quickest. If none does, the quickest of
-  /// all.
-  HoldSteps best(double limitMs) const {
+  /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do and are worth a
+  /// change from a loss of `lost`, the one that loses least, with kExchange; of those that lose the same, the
+  /// quickest. If there is none, the quickest that would be worth it.
+  HoldSteps best(double limitMs, double lost = kInfinity) const {
     if (timeAt({}) <= limitMs) return {};
     HoldSteps best{}, quickest{};
     double bestLoss = 0, bestMs = 0, quickestMs = 0;
     bool found = false, any = false;
     forEach([&](const HoldSteps& s) {
-      const double loss = (s.error == kept_ ? 1 : kExchange) * lossAt(choice_, s);
-      if (found && loss > bestLoss) return;
+      const bool exchanges = s.error != kept_;
+      const double loss = (exchanges ? kExchange : 1) * lossAt(choice_, s);
+      if (loss >= (exchanges ? 1 : 1 - kWorthwhile) * lost || (found && loss > bestLoss)) return;
       const double ms = timeAt(s);
       if (!any || ms < quickestMs) quickest = s, quickestMs = ms, any = true;
       if (!(ms <= limitMs) || (found && loss == bestLoss && ms >= bestMs)) return;
@@ -168,8 +170,12 @@ class Search {
   template <class Visit>
   void forEach(const Visit& visit) const {
     const Errors& e = choice_.error;
-    for (std::size_t error = 0; error < e.size; error = e.next(error, fine_)) forEachOf(error, visit);
-    if (kept_ != kNoPlace) forEachOf(kept_, visit);
+    bool visited = kept_ == kNoPlace;
+    for (std::size_t error = 0; error < e.size; error = e.next(error, fine_)) {
+      forEachOf(error, visit);
+      visited = visited || error == kept_;
+    }
+    if (!visited) forEachOf(kept_, visit);
   }
   template <class Visit>
   void forEachOf(std::size_t error, const Visit& visit) const {
@@ -203,8 +209,8 @@ double passed(const HoldGiven& given, HoldMemory& memory) {
   return ms > 0 ? ms : 0;
 }
 
-/// Notes the triangles of this image, and returns whether they are those of the last one.
-bool steady(double triangles, double ms, HoldMemory& memory) {
+/// Notes the triangles of this image, and returns whether they are within a hundredth of the last image's.
+bool noteTriangles(double triangles, double ms, HoldMemory& memory) {
   const bool steady = memory.begun && std::abs(triangles - memory.triangles) <= kSteady * memory.triangles;
   memory.triangles = triangles;
   memory.steadyMs = steady ? memory.steadyMs + ms : 0;
@@ -300,11 +306,11 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
   d.bandMs = given.cost.bandMs;
 
   const Choice choice = choiceOf(given, p);
-  const bool isSteady = steady(given.triangles[0], ms, memory);
-  const bool rests = memory.begun && memory.steadyMs >= p.calm.value();
+  const bool steady = noteTriangles(given.triangles[0], ms, memory);
+  const bool rests = steady && memory.steadyMs >= p.calm.value();
   const auto aim = [&](bool still) { return d.limitMs * (1 - (still ? kSteadyReserve : kTurningReserve)); };
   const HoldSteps before = within(choice, memory.steps);
-  const std::size_t kept = memory.begun ? before.error : kNoPlace;
+  const std::size_t kept = memory.begun && before.error == memory.steps.error ? before.error : kNoPlace;
   const Search search(given, choice, rests, kept);
   HoldSteps now = before;
   bePatient(rests, ms, p.calm.value(), memory);
@@ -322,17 +328,16 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     if (memory.restoredMs < kTooEarlyMs) memory.patience = std::min(2 * memory.patience, kMostPatience);
     memory.restoredMs = kInfinity;
   } else {
-    // View and head-room must both be calm. Head-room of a view at rest is looked at from its first image on,
-    // so that the one calm does not wait for the other.
-    const HoldSteps wanted = Search(given, choice, isSteady, kept).best(aim(isSteady));
-    const double lost = lossAt(choice, before), won = lost - lossAt(choice, wanted);
-    const bool worth = wanted == HoldSteps{} ? before != wanted : won > kWorthwhile * lost && won > 0;
-    const bool room = worth && search.timeAt(wanted) <= d.limitMs;
+    // In a view that has just come to rest, head-room at fine settings counts from the first steady image on,
+    // so that it and the view are calm at the same time. Until then nothing goes there.
+    const HoldSteps wanted = Search(given, choice, steady, kept).best(aim(steady), lossAt(choice, before));
+    const bool mayMove = rests || !steady;
+    const bool room = wanted != before && search.timeAt(wanted) <= aim(steady);
     memory.calmMs = room ? memory.calmMs + ms : 0;
     const bool ready = meshesReady(given, before.error, room ? wanted.error : before.error, passedMs, memory);
     d.reason = HoldReason::held;
     const bool ample = search.timeAt(before) < kAmple * d.limitMs;
-    if (room && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
+    if (room && mayMove && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
       const bool stays = rests || ample || memory.calmMs >= kTurningCalmMs;
       const HoldSteps nearer = raised(before, wanted, ready && stays);
       if (nearer != before && search.timeAt(nearer) <= d.limitMs)

@@ -176,8 +176,7 @@ FrameCounters Renderer::Impl::blurScene(const FrameRequest& r) {
   if (strength > 0 || !r.skips.blurAtRest) {
     gl->clock.beginPart(&FrameCost::blur);
     if (!(strength > 0)) gl->blur.rest();
-    gl->blur.apply(scene().id(), scene().colourTexture(), lastScene.widthPx, lastScene.heightPx, strength,
-                   r.time);
+    gl->blur.apply(scene(), strength, r.time);
     gl->clock.endPart(&FrameCost::blur);
     ++done.blurPasses;
   }

@@ -71,6 +71,18 @@ std::vector<std::uint8_t> FrameBuffer::readPixels(int width, int height) const {
   return pixels;
 }
 
+void FrameBuffer::readPixels(std::uint8_t* rgba) const {
+  const Reading reading(id_);
+  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+}
+
+void FrameBuffer::writePixels(const std::uint8_t* rgba) const {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, colour_);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+  glBindTexture(GL_TEXTURE_2D, 0);
+}
+
 void FrameBuffer::resize(int width, int height) {
   if (id_ != 0 && width == width_ && height == height_) return;
   release();

@@ -27,6 +27,9 @@ class FrameBuffer {
   std::vector<float> readDistances(const ViewShape& view, const ViewShape& pixels) const;
   /// Returns RGBA of the lower left corner, row 0 at the bottom. Needs Colour::rgba8.
   std::vector<std::uint8_t> readPixels(int width, int height) const;
+  /// Read and write the RGBA of all pixels, row 0 at the bottom. Need Colour::rgba8.
+  void readPixels(std::uint8_t* rgba) const;
+  void writePixels(const std::uint8_t* rgba) const;
   int width() const { return width_; }
   int height() const { return height_; }
 

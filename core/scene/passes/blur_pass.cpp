@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/gl/frame_buffer.h"
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_program.h"
 #include "core/scene/shaders/shaders.h"
@@ -85,9 +86,9 @@ double BlurPass::keptAfter(double strength, double step) {
   return std::pow(std::clamp(strength, 0.0, kStrongest), step * kReferenceHz);
 }
 
-void BlurPass::apply(unsigned fbo, unsigned texture, int width, int height, double strength, double time) {
+void BlurPass::apply(const FrameBuffer& image, double strength, double time) {
   if (!software_ && program_ == 0) return;
-  resize(width, height);
+  resize(image.width(), image.height());
   const double step = time - time_;
   const bool again = step == 0 && !fresh_;
   if (!again) {
@@ -97,15 +98,14 @@ void BlurPass::apply(unsigned fbo, unsigned texture, int width, int height, doub
   time_ = time;
   fresh_ = false;
   if (software_)
-    mixOnCpu(fbo, texture);
+    mixOnCpu(image);
   else
-    mixOnGpu(fbo, texture);
-  glBindFramebuffer(GL_FRAMEBUFFER, fbo);
+    mixOnGpu(image);
+  glBindFramebuffer(GL_FRAMEBUFFER, image.id());
 }
 
-void BlurPass::mixOnCpu(unsigned fbo, unsigned texture) {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, fbo);
-  glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+void BlurPass::mixOnCpu(const FrameBuffer& image) {
+  image.readPixels(pixels_.data());
   std::vector<float>& sum = sum_[newest_];
   // A first image is the result.
   if (!(keep_ > 0)) {
@@ -113,13 +113,10 @@ void BlurPass::mixOnCpu(unsigned fbo, unsigned texture) {
     return;
   }
   mix(sum_[1 - newest_].data(), static_cast<float>(keep_), sum.data(), pixels_.data(), pixels_.size());
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
-  glBindTexture(GL_TEXTURE_2D, 0);
+  image.writePixels(pixels_.data());
 }
 
-void BlurPass::mixOnGpu(unsigned fbo, unsigned texture) {
+void BlurPass::mixOnGpu(const FrameBuffer& image) {
   for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_BLEND}) glDisable(off);
   glViewport(0, 0, width_, height_);
   glBindFramebuffer(GL_FRAMEBUFFER, frame_[newest_]);
@@ -128,7 +125,7 @@ void BlurPass::mixOnGpu(unsigned fbo, unsigned texture) {
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, texture_[1 - newest_]);
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, texture);
+  glBindTexture(GL_TEXTURE_2D, image.colourTexture());
   glBindVertexArray(emptyArray_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindVertexArray(0);
@@ -141,7 +138,7 @@ void BlurPass::mixOnGpu(unsigned fbo, unsigned texture) {
   // A first image is the result: nothing to bring back.
   if (keep_ > 0) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_[newest_]);
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, fbo);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, image.id());
     glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   }
 }

@@ -6,6 +6,8 @@
 
 namespace trimtab::scene {
 
+class FrameBuffer;
+
 /// Document C's blur: an afterimage that builds up over frames ("BlurAccumulator applies the afterimage
 /// effect"), which does not soften a single image. Like OpenSceneGraph's own motion blur, which its authors
 /// used, it keeps a share of the accumulated image that falls exponentially with time. Contexts no longer
@@ -22,11 +24,11 @@ class BlurPass {
   BlurPass(const BlurPass&) = delete;
   BlurPass& operator=(const BlurPass&) = delete;
 
-  /// Replaces the image of framebuffer `fbo`, whose colour is `texture`, by its mix with those before.
+  /// Replaces an image by its mix with those before, and leaves its framebuffer bound.
   /// `strength` is the share of the accumulated image that is left after 1/60 s; `time` is in seconds. The
   /// first image after a rest, after a step back or of more than a second, or of another size stays as it
   /// is; one of the same time replaces the last one.
-  void apply(unsigned fbo, unsigned texture, int width, int height, double strength, double time);
+  void apply(const FrameBuffer& image, double strength, double time);
   /// Returns the share of the accumulated image that is left `step` seconds later; 0 if that one is a first
   /// image.
   static double keptAfter(double strength, double step);
@@ -36,8 +38,8 @@ class BlurPass {
  private:
   void resize(int width, int height);
   void makeTargets();
-  void mixOnGpu(unsigned fbo, unsigned texture);
-  void mixOnCpu(unsigned fbo, unsigned texture);
+  void mixOnGpu(const FrameBuffer& image);
+  void mixOnCpu(const FrameBuffer& image);
 
   bool software_;
   std::array<std::vector<float>, 2> sum_;  ///< of a software rasteriser, 0..255

@@ -46,12 +46,10 @@ void ScaleUpPass::draw(const FrameBuffer& from, const FrameBuffer& to) {
 }
 
 void ScaleUpPass::interpolate(const FrameBuffer& from, const FrameBuffer& to) {
-  // Of the last column the second pixel lies behind the row, with no weight.
+  // The last column reads one pixel past its row, with weight 0, so the buffer has one more.
   small_.resize(bytesOf(from) + kChannels);
   large_.resize(bytesOf(to));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, from.id());
-  glReadPixels(0, 0, from.width(), from.height(), GL_RGBA, GL_UNSIGNED_BYTE, small_.data());
-
+  from.readPixels(small_.data());
   place(from, to);
   stretchedRow_ = {kNoRow, kNoRow};
   const std::size_t fromBytes = kChannels * static_cast<std::size_t>(from.width()),
@@ -61,26 +59,22 @@ void ScaleUpPass::interpolate(const FrameBuffer& from, const FrameBuffer& to) {
     blend(stretched(row.first, fromBytes), stretched(row.second, fromBytes), row.weight, mixed, toBytes);
     mixed += static_cast<std::ptrdiff_t>(toBytes);
   }
-
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, to.colourTexture());
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, to.width(), to.height(), GL_RGBA, GL_UNSIGNED_BYTE, large_.data());
-  glBindTexture(GL_TEXTURE_2D, 0);
+  to.writePixels(large_.data());
 }
 
 void ScaleUpPass::place(const FrameBuffer& from, const FrameBuffer& to) {
   columns_.clear();
   rows_.clear();
   for (int x = 0; x < to.width(); ++x) {
-    const double place = placeOf(x, to.width(), from.width()), first = std::floor(place);
-    const auto b = static_cast<std::uint16_t>(std::lround(256 * (place - first)));
+    const double at = placeOf(x, to.width(), from.width()), first = std::floor(at);
+    const auto b = static_cast<std::uint16_t>(std::lround(256 * (at - first)));
     const auto a = static_cast<std::uint16_t>(256 - b);
     columns_.push_back({kChannels * static_cast<std::size_t>(first), Words{a, a, a, a, b, b, b, b}});
   }
   for (int y = 0; y < to.height(); ++y) {
-    const double place = placeOf(y, to.height(), from.height()), first = std::floor(place);
-    rows_.push_back({static_cast<std::size_t>(first), static_cast<std::size_t>(std::ceil(place)),
-                     static_cast<std::uint16_t>(std::lround(65535 * (place - first)))});
+    const double at = placeOf(y, to.height(), from.height()), first = std::floor(at);
+    rows_.push_back({static_cast<std::size_t>(first), static_cast<std::size_t>(std::ceil(at)),
+                     static_cast<std::uint16_t>(std::lround(65535 * (at - first)))});
   }
 }
 

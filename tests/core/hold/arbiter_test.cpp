@@ -186,7 +186,7 @@ TEST(Arbiter, goesBackAndForthBetweenNoSettingsThatTakeTheSameTime) {
   EXPECT_EQ(changes, 0);
 }
 
-TEST(Arbiter, givesUpNoMoreThanTheBudgetAsksOnceTheViewIsSteady) {
+TEST(Arbiter, givesUpAtMostAQuarterOctaveMoreThanTheBudgetAsksOnceTheViewIsSteady) {
   std::mt19937 random(13);
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -206,7 +206,7 @@ TEST(Arbiter, givesUpNoMoreThanTheBudgetAsksOnceTheViewIsSteady) {
       d = arbitrate(g, p, memory);
     }
     EXPECT_LE(d.heldMs.total(), d.limitMs) << view;
-    // What restoring leaves free, and a quarter of an octave of the triangles: less is no exchange worth.
+    // What restoring leaves free, and a quarter of an octave of the triangles.
     EXPECT_GE(d.heldMs.total(), d.limitMs * 0.97 - 0.16 * trianglesMs) << view;
   }
 }

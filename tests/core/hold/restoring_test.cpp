@@ -100,28 +100,52 @@ TEST(Arbiter, restoresWithoutAnyImageOverTheLimit) {
   }
 }
 
+/// A place of the half octaves by which the allowed error moves while the view turns.
+bool isCoarse(int place) {
+  return place % int{kPlacesPerOctave / 2} == 1;
+}
+
 TEST(Arbiter, aViewThatComesToRestIsRestoredAfterOneCalm) {
   HoldMemory memory;
-  double restedS = 0, restoredS = 0;
   HoldParameters p = enabled();
   p.renderScaleMinimum = Ratio{1};
-  double held = 0;
-  for (int i = 0; i < 300; ++i) {
+  double restedS = 0, restoredS = 0;
+  for (int i = 0; i < 300 && restoredS == 0; ++i) {
     HoldGiven g = given(i / 100.0);
     g.budgetMs = 38;
     const bool turns = i < 100;
     for (double& triangles : g.triangles) triangles *= turns ? (i % 2 == 1 ? 2.1 : 2) : 1.55;
-    const double errorPx = arbitrate(g, p, memory).held.errorPx;
-    if (turns)
+    const int held = memory.steps.error;
+    arbitrate(g, p, memory);
+    if (turns) {
       restedS = g.timeS;
-    else if (restoredS == 0 && errorPx < held)
+    } else if (memory.steps.error < held) {
       restoredS = g.timeS;
-    held = errorPx;
+      for (int place = memory.steps.error; place < held; ++place)
+        EXPECT_FALSE(isCoarse(place)) << "a coarse setting serves too";
+    }
   }
   ASSERT_GT(restoredS, 0);
-  EXPECT_GT(held, 1) << "all fits, so coarse settings serve too";
-  EXPECT_NE(std::fmod(8 * std::log2(held), 4), 0) << "half an octave, so coarse settings serve too";
   EXPECT_NEAR(1e3 * (restoredS - restedS), p.calm.value(), 35);
+}
+
+TEST(Arbiter, singleSteadyImagesOfATurningViewMoveNothingByFineSteps) {
+  HoldMemory memory;
+  HoldParameters p = enabled();
+  p.renderScaleMinimum = Ratio{1};
+  int fine = 0, changes = 0;
+  for (int i = 0; i < 3000; ++i) {
+    HoldGiven g = given(i / 100.0);
+    g.budgetMs = 38;
+    const double load = 2 + 0.8 * std::sin(i / 300.0) + (i % 10 < 5 ? 0 : 0.05);
+    for (double& triangles : g.triangles) triangles *= load;
+    const int held = memory.steps.error;
+    arbitrate(g, p, memory);
+    changes += memory.steps.error != held;
+    fine += memory.steps.error != held && memory.steps.error != 0 && !isCoarse(memory.steps.error);
+  }
+  EXPECT_GT(changes, 2);
+  EXPECT_EQ(fine, 0);
 }
 
 /// A machine that is now quicker and now slower, by more than the arbiter's reserve: without patience the

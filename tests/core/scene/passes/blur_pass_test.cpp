@@ -24,9 +24,8 @@ TEST_F(BlurPassTest, mixesAlikeByShaderAndOnThisProcessor) {
     std::vector<std::uint8_t> pixels(std::size_t{4} * kSide * kSide);
     for (std::uint8_t& value : pixels) value = static_cast<std::uint8_t>(random());
     const auto blurred = [&](BlurPass& pass) {
-      glBindTexture(GL_TEXTURE_2D, image.colourTexture());
-      glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, kSide, kSide, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
-      pass.apply(image.id(), image.colourTexture(), kSide, kSide, 0.9, time);
+      image.writePixels(pixels.data());
+      pass.apply(image, 0.9, time);
       return image.readPixels(kSide, kSide);
     };
     const auto expected = blurred(byShader), found = blurred(here);

@@ -28,7 +28,8 @@
 ///
 /// While the triangles of the coming views change, the allowed error moves by half octaves, so that a glance
 /// changes levels once or twice. Once they have been steady for hold.calm_ms it moves by eighths of an
-/// octave, so that no more is given up than the budget asks.
+/// octave, so that little more is given up than the budget asks: a change must win more than a tenth of the
+/// loss, and one that exchanges levels more than a fifth.
 namespace trimtab {
 
 /// Everything that an image's arbitration depends on beside its memory, as plain numbers, so that a trace can
