@@ -63,6 +63,8 @@ void ScaleUpPass::interpolate(const FrameBuffer& from, const FrameBuffer& to) {
 }
 
 void ScaleUpPass::place(const FrameBuffer& from, const FrameBuffer& to) {
+  const std::array sizes{from.width(), from.height(), to.width(), to.height()};
+  if (std::exchange(placed_, sizes) == sizes) return;
   columns_.clear();
   rows_.clear();
   for (int x = 0; x < to.width(); ++x) {

@@ -11,7 +11,7 @@ class FrameBuffer;
 
 /// Scales an image up, with colours interpolated between the middles of its pixels (bilinear). On a GPU this
 /// is one blit. With a software rasteriser the processor interpolates, to within a grey level: to 1280 x 720,
-/// the blit takes 2.6 to 4 times as long on two cores, and 50 ms more at the first image and at the first
+/// the blit takes 2.3 to 3.3 times as long on two cores, and 50 ms more at the first image and at the first
 /// whose width is a power of two, because its shaders are compiled then.
 class ScaleUpPass {
  public:
@@ -38,6 +38,7 @@ class ScaleUpPass {
   const std::uint16_t* stretched(std::size_t row, std::size_t bytes);
 
   bool software_;
+  std::array<int, 4> placed_{};  ///< the sizes that columns_ and rows_ are for
   std::vector<std::uint8_t> small_, large_;
   std::vector<Column> columns_;
   std::vector<Row> rows_;

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/scene/gl/frame_buffer.h"
-#include "core/scene/gl/gl_api.h"
+#include "tests/core/scene/passes/bilinear_twin.h"
 #include "tests/core/scene/scene_test.h"
 
 namespace trimtab::scene {
@@ -33,19 +33,6 @@ class ScaleUp : public test::SceneTest {
   }
 };
 
-/// The twin: the same in doubles.
-double twin(const Case& c, const Pixels& pixels, int x, int y, int channel) {
-  const double u = std::clamp((x + 0.5) * c.fromWidth / c.width - 0.5, 0.0, c.fromWidth - 1.0),
-               v = std::clamp((y + 0.5) * c.fromHeight / c.height - 0.5, 0.0, c.fromHeight - 1.0);
-  const auto at = [&](double i, double j) {
-    const int column = std::min(int(i), c.fromWidth - 1), row = std::min(int(j), c.fromHeight - 1);
-    return double(pixels[static_cast<std::size_t>((row * c.fromWidth + column) * 4 + channel)]);
-  };
-  const double i = std::floor(u), j = std::floor(v), a = u - i, b = v - j;
-  return (1 - b) * ((1 - a) * at(i, j) + a * at(i + 1, j)) +
-         b * ((1 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
-}
-
 constexpr Case kCases[] = {{1, 1, 1, 1},   {1, 1, 7, 5},     {1, 9, 4, 20},    {9, 1, 30, 3},   {2, 2, 1, 1},
                            {2, 2, 64, 64}, {31, 17, 33, 19}, {64, 48, 80, 60}, {37, 53, 37, 54}};
 
@@ -61,7 +48,8 @@ TEST_F(ScaleUp, isItsTwinToAGreyLevelAtAnySize) {
       for (int x = 0; x < c.width; ++x)
         for (int channel = 0; channel < 4; ++channel)
           worst = std::max(worst, std::abs(found[static_cast<std::size_t>((y * c.width + x) * 4 + channel)] -
-                                           twin(c, pixels, x, y, channel)));
+                                           test::scaledUp(pixels, c.fromWidth, c.fromHeight, c.width,
+                                                          c.height, x, y, channel)));
     EXPECT_LE(worst, 1) << c.fromWidth << " x " << c.fromHeight << " to " << c.width << " x " << c.height;
   }
 }
