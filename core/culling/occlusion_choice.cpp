@@ -64,10 +64,8 @@ bool OcclusionChoice::isHopeless(std::size_t arm) const {
 
 bool OcclusionChoice::isDue(std::size_t arm, const Situation& now) const {
   const Arm& a = arms_[arm];
-  const bool hopeless = isHopeless(arm);
-  const double patience = a.patience * (hopeless ? kMostPatience : 1);
-  return isNew(arm) || (a.last.rule != now.rule && !hopeless) ||
-         now.timeMs - a.last.timeMs > patience * kBelievedMs ||
+  const double patience = a.patience * (isHopeless(arm) ? kMostPatience : 1);
+  return isNew(arm) || now.timeMs - a.last.timeMs > patience * kBelievedMs ||
          length(now.eye - a.last.eye) > patience * kBelievedM ||
          angleBetween(now.forward, a.last.forward) > patience * kBelievedTurn;
 }
@@ -109,7 +107,8 @@ OcclusionChoice::Method OcclusionChoice::choose(const Situation& situation) {
   const auto since = [&](std::size_t arm) { return arms_[arm].known ? arms_[arm].last.timeMs : -1e300; };
   for (std::size_t arm = 0; arm < kArms; ++arm)
     if (arms_[arm].canServe && arm != current_ && isDue(arm, situation) &&
-        lossOfTrying(arm) <= arms_[arm].budgetMs && (served_ == current_ || since(arm) < since(served_)))
+        price(lossOfTrying(arm)) <= arms_[arm].budgetMs &&
+        (served_ == current_ || since(arm) < since(served_)))
       served_ = arm;
   if (served_ != current_) {
     // The first frame builds what later frames keep, so it takes a second one to know the cost.
@@ -172,9 +171,9 @@ void OcclusionChoice::learn(const Outcome& outcome) {
   // A trial pays with its own budget for what it lost, and for the restart of the method it interrupted.
   const double worthNow = msPerTriangle() * static_cast<double>(outcome.hidden) - outcome.occlusionMs;
   if (served_ != current_)
-    arms_[served_].budgetMs -= std::max(0.0, worth(current_) - worthNow);
+    arms_[served_].budgetMs -= price(std::max(0.0, worth(current_) - worthNow));
   else if (before_ != served_ && before_ < kArms)
-    arms_[before_].budgetMs -= std::max(0.0, outcome.occlusionMs - arms_[served_].costMs);
+    arms_[before_].budgetMs -= price(std::max(0.0, outcome.occlusionMs - arms_[served_].costMs));
   // Each method has a budget of its own, so that one that is expensive to try is tried too.
   const auto waits = [&](std::size_t arm) { return arms_[arm].canServe && arm != current_; };
   double others = 0;
@@ -182,7 +181,7 @@ void OcclusionChoice::learn(const Outcome& outcome) {
   for (std::size_t arm = 0; arm < kArms; ++arm)
     if (waits(arm))
       arms_[arm].budgetMs = std::min(arms_[arm].budgetMs + kExploring * frameMs_ / others,
-                                     std::max(2 * frameMs_, lossOfTrying(arm)));
+                                     std::max(2 * frameMs_, price(lossOfTrying(arm))));
   before_ = served_;
 }
 

@@ -13,31 +13,27 @@ namespace {
 /// Render scale falls by a twentieth a step, particles by an eighth: below what a still image shows.
 constexpr double kScaleStep = 0.05, kParticleStep = 0.125;
 constexpr std::size_t kMostScales = 17, kMostParticles = 9;
-/// Coarse places of the scale of allowed errors are half an octave apart.
-constexpr std::size_t kCoarse = kPlacesPerOctave / 2;
 /// Lowering aims this share of the limit below it, so that a load that keeps rising does not lower the level
-/// of detail again and again. In a steady view no load rises.
-constexpr double kTurningReserve = 0.06, kSteadyReserve = 0.03;
+/// of detail again and again. For an eye at rest no load rises.
+constexpr double kMovingReserve = 0.06, kRestingReserve = 0.03;
 /// Head-room must win more than this part of the loss: less is not worth a change.
 constexpr double kWorthwhile = 0.1;
 /// A setting with another allowed error exchanges levels, so its loss counts for so many times as much, and
 /// head-room must win more than a fifth by it.
 constexpr double kExchange = 1.25;
 constexpr std::size_t kNoPlace = kErrorPlaces + 1;
-/// While the view turns, the allowed error returns only after head-room for so long, which is longer than a
+/// While the eye moves, the allowed error returns only after head-room for so long, which is longer than a
 /// glance lasts, because the next view may need what this one does not; or if the image takes less than this
 /// part of the limit, because then too much was given up.
-constexpr double kTurningCalmMs = 1000, kAmple = 0.75;
-/// A restoration that is taken back within so long was too early; one that lasts for so long was not.
-constexpr double kTooEarlyMs = 1000, kLastsMs = 4000, kMostPatience = 32;
+constexpr double kMovingCalmMs = 1000, kAmple = 0.75;
+/// A restoration that is taken back within so long was too early.
+constexpr double kLastsMs = 4000, kMostPatience = 32;
 /// The allowed error waits no longer for meshes.
 constexpr double kMostBuildingMs = 2000;
 /// Settings whose times differ by less are alike.
 constexpr double kAlike = 1.03;
 /// No image counts for more than this part of the calm that restoring waits for, however far the clock jumps.
 constexpr double kMostOfCalm = 1.0 / 3;
-/// Triangles that change by more than this part from image to image belong to a view that turns.
-constexpr double kSteady = 0.01;
 
 /// The settings of one lever, from what is asked for downwards, with the loss of each.
 template <std::size_t Most>
@@ -52,11 +48,8 @@ struct Settings {
 struct Errors {
   std::array<double, kErrorPlaces + 1> value{}, loss{}, triangles{};
   std::size_t first = 1, size = 1;
-  /// Returns the place that follows one, of all or of the coarse ones.
-  std::size_t next(std::size_t place, bool fine) const {
-    const std::size_t after = place == 0 ? first : place + 1;
-    return fine ? after : (after + kCoarse - 2) / kCoarse * kCoarse + 1;
-  }
+  /// Returns the place that follows one.
+  std::size_t next(std::size_t place) const { return place == 0 ? first : place + 1; }
 };
 
 struct Choice {
@@ -137,20 +130,41 @@ HoldSteps within(const Choice& c, const HoldSteps& s) {
 
 class Search {
  public:
-  /// `kept` is the place of the allowed error in the image before; kNoPlace if it cannot stay there.
-  Search(const HoldGiven& given, const Choice& choice, bool fine, std::size_t kept)
-      : given_(given), choice_(choice), fine_(fine), kept_(kept) {}
+  /// `before` are the steps of the image before, and `kept` its place of the allowed error; kNoPlace if it
+  /// cannot stay there. `caution` is hold.caution.
+  Search(const HoldGiven& given, const Choice& choice, const HoldSteps& before, std::size_t kept,
+         double caution)
+      : given_(given), choice_(choice), before_(before), kept_(kept), caution_(caution) {}
 
   double timeAt(const HoldSteps& s) const { return predictAt(s).total(); }
-  StageTimes predictAt(const HoldSteps& s) const {
-    return predict(given_.cost, loadOf(given_, leversAt(choice_, s), choice_.error.triangles[s.error]));
+  StageTimes predictAt(const HoldSteps& s) const { return predict(given_.cost, loadAt(s)); }
+  /// Returns the time with `caution` of the bands by which it is less certain than at the steps before, but
+  /// no more than it can be.
+  double timeForSure(const HoldSteps& s) const {
+    const FrameLoad from = loadAt(before_), to = loadAt(s);
+    const double known = coefficientBandMs(given_.cost, from), band = coefficientBandMs(given_.cost, to);
+    const double late = caution_ * std::sqrt(std::max(band * band - known * known, 0.0));
+    return std::min(timeAt(s) + late, timeAt(before_) * mostTimesAsLong(from, to));
   }
 
-  /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do and are worth a
-  /// change from a loss of `lost`, the one that loses least, with kExchange; of those that lose the same, the
-  /// quickest. If there is none, the quickest that would be worth it.
-  HoldSteps best(double limitMs, double lost = kInfinity) const {
-    if (timeAt({}) <= limitMs) return {};
+  /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do, the one that
+  /// loses least, with kExchange; of those that lose the same, the quickest. If there is none, the quickest
+  /// of all.
+  HoldSteps best(double limitMs) const {
+    return best(limitMs, kInfinity, [this](const HoldSteps& s) { return timeAt(s); });
+  }
+  /// Returns the same of the settings that fit for sure and are worth a change from a loss of `lost`.
+  HoldSteps bestForSure(double limitMs, double lost) const {
+    return best(limitMs, lost, [this](const HoldSteps& s) { return timeForSure(s); });
+  }
+
+ private:
+  FrameLoad loadAt(const HoldSteps& s) const {
+    return loadOf(given_, leversAt(choice_, s), choice_.error.triangles[s.error]);
+  }
+  template <class Time>
+  HoldSteps best(double limitMs, double lost, const Time& time) const {
+    if (time({}) <= limitMs) return {};
     HoldSteps best{}, quickest{};
     double bestLoss = 0, bestMs = 0, quickestMs = 0;
     bool found = false, any = false;
@@ -158,38 +172,30 @@ class Search {
       const bool exchanges = s.error != kept_;
       const double loss = (exchanges ? kExchange : 1) * lossAt(choice_, s);
       if (loss >= (exchanges ? 1 : 1 - kWorthwhile) * lost || (found && loss > bestLoss)) return;
-      const double ms = timeAt(s);
+      const double ms = time(s);
       if (!any || ms < quickestMs) quickest = s, quickestMs = ms, any = true;
       if (!(ms <= limitMs) || (found && loss == bestLoss && ms >= bestMs)) return;
       best = s, bestLoss = loss, bestMs = ms, found = true;
     });
     return found ? best : quickest;
   }
-
- private:
   template <class Visit>
   void forEach(const Visit& visit) const {
     const Errors& e = choice_.error;
-    bool visited = kept_ == kNoPlace;
-    for (std::size_t error = 0; error < e.size; error = e.next(error, fine_)) {
-      forEachOf(error, visit);
-      visited = visited || error == kept_;
-    }
-    if (!visited) forEachOf(kept_, visit);
-  }
-  template <class Visit>
-  void forEachOf(std::size_t error, const Visit& visit) const {
     HoldSteps s;
-    s.error = static_cast<std::uint8_t>(error);
-    for (s.renderScale = 0; s.renderScale < choice_.scale.size; ++s.renderScale)
-      for (s.particles = 0; s.particles < choice_.particles.size; ++s.particles)
-        for (s.blur = 0; s.blur < choice_.blur.size; ++s.blur) visit(s);
+    for (std::size_t error = 0; error < e.size; error = e.next(error)) {
+      s.error = static_cast<std::uint8_t>(error);
+      for (s.renderScale = 0; s.renderScale < choice_.scale.size; ++s.renderScale)
+        for (s.particles = 0; s.particles < choice_.particles.size; ++s.particles)
+          for (s.blur = 0; s.blur < choice_.blur.size; ++s.blur) visit(s);
+    }
   }
 
   const HoldGiven& given_;
   const Choice& choice_;
-  bool fine_;
+  HoldSteps before_;
   std::size_t kept_;
+  double caution_;
 };
 
 /// Returns the steps one image nearer to `to`, which are fewer: blur at once, the error too if it may return,
@@ -209,23 +215,15 @@ double passed(const HoldGiven& given, HoldMemory& memory) {
   return ms > 0 ? ms : 0;
 }
 
-/// Notes the triangles of this image, and returns whether they are within a hundredth of the last image's.
-bool noteTriangles(double triangles, double ms, HoldMemory& memory) {
-  const bool steady = memory.begun && std::abs(triangles - memory.triangles) <= kSteady * memory.triangles;
-  memory.triangles = triangles;
-  memory.steadyMs = steady ? memory.steadyMs + ms : 0;
-  return steady;
-}
-
-/// Follows how long the last restoration has lasted. One that lasts ends the patience at once, and a view
-/// that turns halves it every `calmMs`.
-void bePatient(bool rests, double ms, double calmMs, HoldMemory& memory) {
+/// Follows how long the last restoration has lasted. One that lasts ends the patience at once, and an eye
+/// that moves halves it in that time.
+void bePatient(bool moves, double ms, HoldMemory& memory) {
   memory.restoredMs += ms;
   if (memory.restoredMs >= kLastsMs && std::isfinite(memory.restoredMs)) {
     memory.patience = 1;
     memory.restoredMs = kInfinity;
   }
-  if (!rests) memory.patience = std::max(1.0, memory.patience * std::exp2(-ms / calmMs));
+  if (moves) memory.patience = std::max(1.0, memory.patience * std::exp2(-ms / kLastsMs));
 }
 
 /// Notes to which place the allowed error is to go, so that its meshes are named. Returns false while a finer
@@ -261,6 +259,9 @@ bool isNumber(const HoldGiven& g) {
                g.unseenPx + g.particles + g.imageMpx + g.groundMpx + c.fixed + c.perTriangle +
                c.perGroundMpx + c.perSceneMpx + c.perParticles + c.perWeatherMpx + c.perBlurMpx + c.other;
   for (const double triangles : g.triangles) sum += triangles;
+  for (const double variance : c.variance.ground) sum += variance;
+  for (const double variance : c.variance.weather) sum += variance;
+  sum += c.variance.blur;
   return std::isfinite(sum);
 }
 
@@ -306,16 +307,14 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
   d.bandMs = given.cost.bandMs;
 
   const Choice choice = choiceOf(given, p);
-  const bool steady = noteTriangles(given.triangles[0], ms, memory);
-  const bool rests = steady && memory.steadyMs >= p.calm.value();
-  const auto aim = [&](bool still) { return d.limitMs * (1 - (still ? kSteadyReserve : kTurningReserve)); };
+  const double aimMs = d.limitMs * (1 - (given.moves ? kMovingReserve : kRestingReserve));
   const HoldSteps before = within(choice, memory.steps);
   const std::size_t kept = memory.begun && before.error == memory.steps.error ? before.error : kNoPlace;
-  const Search search(given, choice, rests, kept);
+  const Search search(given, choice, before, kept, p.caution.value());
   HoldSteps now = before;
-  bePatient(rests, ms, p.calm.value(), memory);
+  bePatient(given.moves, ms, memory);
   if (!memory.begun || search.timeAt(before) > d.limitMs) {
-    now = search.best(memory.begun ? aim(rests) : d.limitMs);
+    now = search.best(memory.begun ? aimMs : d.limitMs);
     // Where nothing fits, a setting that is next to no quicker is not worth a change.
     if (memory.begun && search.timeAt(now) > d.limitMs &&
         search.timeAt(before) <= kAlike * search.timeAt(now))
@@ -325,22 +324,19 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     // Of a view that sees little ground a finer cut can be the quicker one, because fewer of its nodes reach
     // into it. It waits for its meshes like one that is restored.
     if (!meshesReady(given, before.error, now.error, passedMs, memory) && memory.begun) now = before;
-    if (memory.restoredMs < kTooEarlyMs) memory.patience = std::min(2 * memory.patience, kMostPatience);
+    if (memory.restoredMs < kLastsMs) memory.patience = std::min(2 * memory.patience, kMostPatience);
     memory.restoredMs = kInfinity;
   } else {
-    // In a view that has just come to rest, head-room at fine settings counts from the first steady image on,
-    // so that it and the view are calm at the same time. Until then nothing goes there.
-    const HoldSteps wanted = Search(given, choice, steady, kept).best(aim(steady), lossAt(choice, before));
-    const bool mayMove = rests || !steady;
-    const bool room = wanted != before && search.timeAt(wanted) <= aim(steady);
+    const HoldSteps wanted = search.bestForSure(aimMs, lossAt(choice, before));
+    const bool room = wanted != before && search.timeForSure(wanted) <= aimMs;
     memory.calmMs = room ? memory.calmMs + ms : 0;
     const bool ready = meshesReady(given, before.error, room ? wanted.error : before.error, passedMs, memory);
     d.reason = HoldReason::held;
     const bool ample = search.timeAt(before) < kAmple * d.limitMs;
-    if (room && mayMove && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
-      const bool stays = rests || ample || memory.calmMs >= kTurningCalmMs;
+    if (room && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
+      const bool stays = !given.moves || ample || memory.calmMs >= kMovingCalmMs;
       const HoldSteps nearer = raised(before, wanted, ready && stays);
-      if (nearer != before && search.timeAt(nearer) <= d.limitMs)
+      if (nearer != before && search.timeForSure(nearer) <= d.limitMs)
         now = nearer, d.reason = HoldReason::restored, memory.restoredMs = 0;
     }
   }

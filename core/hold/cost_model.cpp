@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trimtab/units/not_finite.h"
+
 namespace trimtab {
 namespace {
 
@@ -21,6 +23,26 @@ std::array<double, 1> blurOf(const FrameLoad& load) {
   return {load.sceneMpx};
 }
 
+/// Returns a covariance as CostVariance keeps it, in units that are so many times those of the filter.
+template <std::size_t N, std::size_t Kept>
+void keep(const std::array<std::array<double, N>, N>& covariance, const std::array<double, N>& unit,
+          std::array<double, Kept>& kept) {
+  static_assert(Kept == N * (N + 1) / 2);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = i; j < N; ++j) kept[at++] = covariance[i][j] * unit[i] * unit[j];
+}
+
+/// Returns the variance of a sum of coefficients times quantities.
+template <std::size_t N, std::size_t Kept>
+double varianceOf(const std::array<double, Kept>& kept, const std::array<double, N>& quantity) {
+  double variance = 0;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = i; j < N; ++j) variance += (i == j ? 1 : 2) * kept[at++] * quantity[i] * quantity[j];
+  return std::max(variance, 0.0);
+}
+
 double orZero(double ms) {
   return std::isnan(ms) ? 0 : ms;
 }
@@ -37,12 +59,34 @@ StageTimes predict(const CostCoefficients& c, const FrameLoad& load) {
   return times;
 }
 
+double coefficientBandMs(const CostCoefficients& c, const FrameLoad& load) {
+  const CostVariance& v = c.variance;
+  double variance = varianceOf<4>(v.ground, {1, load.triangles, load.groundMpx, load.sceneMpx});
+  if (load.particles > 0) variance += varianceOf<2>(v.weather, {load.particles, load.sceneMpx});
+  if (load.blurs) variance += v.blur * load.sceneMpx * load.sceneMpx;
+  return kNormalBand * std::sqrt(std::max(variance, 0.0));
+}
+
+double mostTimesAsLong(const FrameLoad& before, const FrameLoad& after) {
+  double most = 1;
+  const auto compare = [&most](double from, double to) {
+    if (to > from) most = std::max(most, from > 0 ? to / from : kInfinity);
+  };
+  compare(before.triangles, after.triangles);
+  compare(before.groundMpx, after.groundMpx);
+  compare(before.sceneMpx, after.sceneMpx);
+  compare(before.particles, after.particles);
+  compare(before.blurs, after.blurs);
+  return most;
+}
+
 double workMs(const FrameCost& cost) {
   return std::isfinite(cost.gpu) ? std::max(cost.gpu, cost.total) : cost.total;
 }
 
 StageTimes stagesOf(const FrameCost& cost) {
-  const double other = orZero(cost.decide) + orZero(cost.page) + orZero(cost.symbology);
+  const double other =
+      orZero(cost.decide) + orZero(cost.occlusion) + orZero(cost.page) + orZero(cost.symbology);
   const double weather = orZero(cost.weather), blur = orZero(cost.blur);
   return {std::max(workMs(cost) - other - weather - blur, 0.0), weather, blur, other};
 }
@@ -70,13 +114,16 @@ void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
   ++images_;
 }
 
-/// The shortest of the first images counts, because the longer ones built and uploaded what it found. After
-/// them the value moves like a median: a long upload now and then is not what every image takes.
+/// The median of the last images counts: a long upload, or a trial of a method that looks for hidden ground,
+/// is not what every image takes.
 void CostModel::noteOther(double ms) {
-  if (otherImages_ < kFewestImages)
-    other_ = otherImages_++ == 0 ? ms : std::min(other_, ms);
-  else
-    other_ += 0.05 * std::clamp(ms - other_, -0.5 * other_, 0.5 * other_ + 0.01);
+  if (others_.size() == kOthers) others_.pop_front();
+  others_.push_back(ms);
+  std::array<double, kOthers> sorted{};
+  const auto end = std::copy(others_.begin(), others_.end(), sorted.begin());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(others_.size() / 2);
+  std::nth_element(sorted.begin(), middle, end);
+  other_ = *middle;
 }
 
 CostCoefficients CostModel::coefficients(const FrameLoad& load) const {
@@ -96,6 +143,9 @@ CostCoefficients CostModel::coefficients(const FrameLoad& load) const {
   if (load.blurs) deviation = std::hypot(deviation, blur_.deviation(blurOf(load)));
   c.bandMs = band_ * deviation;
   c.known = ground_.state().images >= kFewestImages;
+  keep<4>(ground_.state().covariance, {1, kTriangleUnit, 1, 1}, c.variance.ground);
+  keep<2>(weather_.state().covariance, {1, 1}, c.variance.weather);
+  c.variance.blur = blur_.state().covariance[0][0];
   return c;
 }
 
@@ -108,7 +158,7 @@ void CostModel::restore(const State& state) {
   weather_.restore(state.weather);
   blur_.restore(state.blur);
   other_ = state.other;
-  otherImages_ = kFewestImages;
+  others_.assign(kOthers, state.other);
   band_ = state.band;
 }
 

@@ -53,6 +53,7 @@ void forEachNumber(Given& g, const Visit& visit) {
                        &g.asked.blurShare, &g.unseenPx, &g.particles, &g.imageMpx, &g.groundMpx})
     visit(*number);
   visit(g.blurs);
+  visit(g.moves);
   for (auto& triangles : g.triangles) visit(triangles);
   visit(g.meshesLeft);
   auto& c = g.cost;
@@ -60,6 +61,9 @@ void forEachNumber(Given& g, const Visit& visit) {
                        &c.perWeatherMpx, &c.perBlurMpx, &c.other, &c.bandMs})
     visit(*number);
   visit(c.known);
+  for (auto& variance : c.variance.ground) visit(variance);
+  for (auto& variance : c.variance.weather) visit(variance);
+  visit(c.variance.blur);
 }
 template <class Memory, class Visit>
 requires std::is_same_v<std::remove_const_t<Memory>, HoldMemory>
@@ -67,8 +71,6 @@ void forEachNumber(Memory& m, const Visit& visit) {
   for (auto* step : {&m.steps.error, &m.steps.renderScale, &m.steps.particles, &m.steps.blur}) visit(*step);
   visit(m.timeS);
   visit(m.calmMs);
-  visit(m.triangles);
-  visit(m.steadyMs);
   visit(m.bandMs);
   visit(m.begun);
   visit(m.restoredMs);

@@ -216,7 +216,7 @@ class ParameterEffects : public test::SceneTest {
       const FrameRequest request = *session.request(state.time, 640, 360);
       seen["hold " + std::to_string(i)] = explain(request.hold);
       FrameResult result;
-      result.visible.triangles = static_cast<std::uint64_t>(4e4 / request.lod.screenSpaceError.value());
+      result.visible.triangles = static_cast<std::uint64_t>(12e4 / request.lod.screenSpaceError.value());
       result.cost = {0, 1, 1, 1, 20, 0, 23};  // the clock is no effect
       session.finished(result, state.time);
     }
@@ -321,7 +321,7 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
       {"hold. measure.",
        {{"hold.enabled", "true"}, {"weather.source", "host"}},
        &ParameterEffects::holdBudget},
-      {"hold.error",
+      {"hold.error hold.exposure hold.loss_error",
        {{"hold.enabled", "true"}, {"weather.source", "host"}, {"hold.loss_error", "0.001"}},
        &ParameterEffects::holdBudget},
       {"hold.caution",

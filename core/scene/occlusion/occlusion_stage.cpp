@@ -1,9 +1,9 @@
 #include "occlusion_stage.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/planted_defects.h"
+#include "trimtab/units/not_finite.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +34,11 @@ std::optional<OcclusionResolution> occlusionResolution(const FrameRequest& reque
 
 Vec3 forwardOf(const EyePose& eye) {
   return eye.axes.row[2] * -1;
+}
+
+/// Returns what the image may take longer than it is predicted to, if the budget is held.
+double roomMs(const HoldDecision& hold) {
+  return hold.limitMs > 0 ? hold.limitMs - hold.heldMs.total() : kInfinity;
 }
 
 }  // namespace
@@ -112,7 +117,7 @@ std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& reque
   using enum OcclusionMethod;
   OcclusionMethod method = request.occlusion;
   if (method == automatic) {
-    if (!request.reproducible) return choose();
+    if (!request.reproducible) return choose(request);
     method = horizon;
   }
   if (method == depth_map && !gpuDrawsMaps) {
@@ -124,16 +129,14 @@ std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& reque
 
 /// Chooses the method by cost. The GPU's depth map is not among them: on a software rasteriser the
 /// processor's own map does the same for less, and on a GPU the frame would wait for the result.
-std::optional<OcclusionMethod> OcclusionStage::choose() {
+std::optional<OcclusionMethod> OcclusionStage::choose(const FrameRequest& request) {
   static constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map,
                                                  OcclusionMethod::cpu_map};
-  const double now =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
   const std::uint64_t band = (static_cast<std::uint64_t>(resolution_.widthPx) << 32) |
                              static_cast<std::uint32_t>(resolution_.heightPx);
   chosen_ = true;
-  const auto method =
-      choice_.choose({now, eye_.position, forwardOf(eye_), ground_.cutNumber().rule, kMethods, band});
+  const auto method = choice_.choose({drawingMs_, eye_.position, forwardOf(eye_), ground_.cutNumber().rule,
+                                      kMethods, band, roomMs(request.hold)});
   if (!method) {
     ++counters_.occlusionsLeftOut;
     result_.note = kNothingPays;
@@ -193,6 +196,7 @@ std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& re
 }
 
 void OcclusionStage::finished(const FrameResult& result) {
+  if (result.cost.total > 0 && std::isfinite(result.cost.total)) drawingMs_ += result.cost.total;
   if (!chosen_) return;
   if (ground_.share().lacksMany() && ++unlearnt_ < kUnlearntFrames) return;
   unlearnt_ = 0;

@@ -78,7 +78,7 @@ class OcclusionStage {
 
  private:
   std::optional<OcclusionMethod> resolve(const FrameRequest& request, bool gpuDrawsMaps);
-  std::optional<OcclusionMethod> choose();
+  std::optional<OcclusionMethod> choose(const FrameRequest& request);
   bool mapHidLittleNear() const;
 
   /// Everything that the visible set depends on.
@@ -108,8 +108,9 @@ class OcclusionStage {
   FrameCounters counters_;
   HorizonMemory memory_;
   OcclusionChoice choice_;
-  bool chosen_ = false;  ///< choice_ chose the method of this frame
-  int unlearnt_ = 0;     ///< successive frames that choice_ did not learn from
+  double drawingMs_ = 0;  ///< that all frames so far took
+  bool chosen_ = false;   ///< choice_ chose the method of this frame
+  int unlearnt_ = 0;      ///< successive frames that choice_ did not learn from
   Defects defects_;
   std::vector<std::uint8_t> planted_;  ///< hidden_ and the node that is culled by mistake
   int subpixelBits_ = 4;

@@ -43,6 +43,7 @@ struct PlannedFlight {
   double triangles = 180e3;
   double stepM = 5, turn = 0.01;  ///< a frame
   double noise = 0;               ///< of each time, share
+  double roomMs = kInfinity;
   std::function<Machine(int)> machine;
   std::uint64_t (*rule)(int) = [](int) -> std::uint64_t { return 0; };
 };
@@ -68,7 +69,9 @@ Total fly(const PlannedFlight& flight) {
                                          {flight.stepM * i, 0, 0},
                                          {std::cos(flight.turn * i), std::sin(flight.turn * i), 0},
                                          flight.rule(i),
-                                         kMethods});
+                                         kMethods,
+                                         0,
+                                         flight.roomMs});
     const auto truth = machine.frame(method, !any || method != before, flight.triangles);
     any = true;
     before = method;
@@ -223,6 +226,51 @@ TEST(OcclusionChoice, losesABoundedShareToTryingWhateverChanges) {
   const Total total = fly(flight);
   EXPECT_LE(total.ms, total.noneMs * (1 + kSlack));
   EXPECT_GT(total.trials, 3u);
+}
+
+/// Everything is due in every frame. Trials lose 4 ms of 16.
+TEST(OcclusionChoice, seldomTriesInAFrameThatHasNoRoomForIt) {
+  PlannedFlight flight = still({5, 6e-5, {{4, 4, 0}, {4, 4, 0}, {4, 4, 0}}});
+  flight.stepM = 250;
+  const std::uint64_t roomy = fly(flight).trials;
+  flight.roomMs = 5;
+  EXPECT_EQ(fly(flight).trials, roomy) << "there is room";
+  flight.roomMs = 3;
+  const std::uint64_t tight = fly(flight).trials;
+  EXPECT_LT(tight, 40u) << "less than one in a hundred";
+  EXPECT_GT(tight, 9u) << "more than the first of each method";
+  EXPECT_GT(roomy, 5 * tight);
+}
+
+TEST(OcclusionChoice, findsWhatPaysWithoutRoomForTrials) {
+  PlannedFlight flight = still({6, 6e-5, {{0.3, 2, 0.8}, {2, 3, 0.9}, {1.5, 1.5, 0.7}}});
+  flight.roomMs = 0;
+  EXPECT_GT(shareOf(fly(flight), OcclusionMethod::horizon), 0.98);
+}
+
+/// Another rule ends the patience with a method, but asks for no trial by itself.
+TEST(OcclusionChoice, anotherRuleAloneAsksForNoTrial) {
+  const Machine plain{10, 4e-5, {{0.5, 1, 0}, {0.5, 1, 0}, {0.5, 1, 0}}};
+  OcclusionChoice choice;
+  double clock = 0;
+  std::uint64_t rule = 0;
+  const auto draw = [&](int frames) {
+    const std::uint64_t before = choice.trials();
+    Method last;
+    for (int i = 0; i < frames; ++i) {
+      const Method method = choice.choose({clock, {}, {1, 0, 0}, rule, kMethods});
+      const auto outcome = plain.frame(method, method != last, 180e3);
+      choice.learn(outcome);
+      clock += outcome.totalMs;
+      last = method;
+    }
+    return choice.trials() - before;
+  };
+  draw(3000);
+  const std::uint64_t same = draw(100);
+  rule = 1;
+  EXPECT_LE(draw(20), 1u);
+  EXPECT_GT(draw(80), same) << "patience has ended";
 }
 
 TEST(OcclusionChoice, triesAgainAfterABoundedTimeWayOrTurn) {

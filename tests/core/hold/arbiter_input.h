@@ -23,7 +23,8 @@ inline HoldGiven given(double timeS = 0) {
   g.blurs = true;
   g.imageMpx = 1;
   g.groundMpx = 0.5;
-  for (std::size_t k = 0; k < kErrorSteps; ++k) g.triangles[k] = 1e5 * std::exp2(-static_cast<double>(k) / 8);
+  for (std::size_t k = 0; k < kErrorSteps; ++k)
+    g.triangles[k] = 1e5 * std::exp2(-static_cast<double>(k) / kPlacesPerOctave);
   g.cost = {.fixed = 2,
             .perTriangle = 1e-4,
             .perGroundMpx = 36,

@@ -175,8 +175,8 @@ TEST(Arbiter, goesBackAndForthBetweenNoSettingsThatTakeTheSameTime) {
   HeldLevers last;
   for (int i = 0; i < 600; ++i) {
     HoldGiven g = given(i / 60.0);
-    g.budgetMs = 5;                                // out of reach
-    for (std::size_t k = 8; k < kErrorSteps; ++k)  // noise decides which of the coarse errors is the quickest
+    g.budgetMs = 5;                                               // out of reach
+    for (std::size_t k = kPlacesPerOctave; k < kErrorSteps; ++k)  // noise decides which is the quickest
       g.triangles[k] = 5e4 + std::uniform_real_distribution<double>(0, 100)(random);
     const HoldDecision d = arbitrate(g, enabled(), memory);
     EXPECT_EQ(d.reason, HoldReason::out_of_reach);
@@ -186,7 +186,7 @@ TEST(Arbiter, goesBackAndForthBetweenNoSettingsThatTakeTheSameTime) {
   EXPECT_EQ(changes, 0);
 }
 
-TEST(Arbiter, givesUpAtMostAQuarterOctaveMoreThanTheBudgetAsksOnceTheViewIsSteady) {
+TEST(Arbiter, givesUpAtMostHalfAnOctaveMoreThanTheBudgetAsks) {
   std::mt19937 random(13);
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -206,8 +206,8 @@ TEST(Arbiter, givesUpAtMostAQuarterOctaveMoreThanTheBudgetAsksOnceTheViewIsStead
       d = arbitrate(g, p, memory);
     }
     EXPECT_LE(d.heldMs.total(), d.limitMs) << view;
-    // What restoring leaves free, and a quarter of an octave of the triangles.
-    EXPECT_GE(d.heldMs.total(), d.limitMs * 0.97 - 0.16 * trianglesMs) << view;
+    // What restoring leaves free, and half an octave of the triangles.
+    EXPECT_GE(d.heldMs.total(), d.limitMs * 0.97 - 0.3 * trianglesMs) << view;
   }
 }
 
@@ -233,7 +233,7 @@ TEST(Arbiter, changesLevelsTwiceAtMostInAGlance) {
   EXPECT_LE(changes, 2);
 }
 
-/// A load that rises and falls by a third, in a view that turns: the other levers follow it.
+/// A load that rises and falls by a third while the eye moves: the other levers follow it.
 TEST(Arbiter, leavesLevelsAloneWhereOtherLeversServeNearlyAsWell) {
   constexpr int kFirst = 100;
   int exchanges = 0, changes = 0;
@@ -244,7 +244,8 @@ TEST(Arbiter, leavesLevelsAloneWhereOtherLeversServeNearlyAsWell) {
       HoldGiven g = given(i / 60.0);
       g.budgetMs = budgetMs;
       const double load = 1 + 0.33 * std::sin(i / 60.0);
-      for (double& triangles : g.triangles) triangles *= load * (i % 2 == 0 ? 1 : 1.02);
+      g.moves = true;
+      for (double& triangles : g.triangles) triangles *= load;
       g.cost.perTriangle *= 4;
       g.cost.perGroundMpx *= 0.5 * load;
       const HoldDecision d = arbitrate(g, enabled(), memory);
@@ -255,7 +256,7 @@ TEST(Arbiter, leavesLevelsAloneWhereOtherLeversServeNearlyAsWell) {
   }
   std::printf("%d of %d changes exchange levels\n", exchanges, changes);
   EXPECT_GT(changes, 500);
-  EXPECT_LE(exchanges, 50) << "159 where levels are exchanged for any gain";
+  EXPECT_LE(exchanges, 50) << "195 where levels are exchanged for any gain";
 }
 
 TEST(Arbiter, anUnknownBudgetOrCostChangesNothing) {

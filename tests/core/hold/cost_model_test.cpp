@@ -87,6 +87,64 @@ TEST(CostModel, predictsWhatItLearned) {
   EXPECT_LE(covered, 0.97 * 800);
 }
 
+/// All images show as many pixels of ground as triangles, so no image told the two apart.
+TEST(CostModel, theBandGrowsForLoadsUnlikeThoseDrawn) {
+  Machine machine;
+  CostModel model;
+  FrameLoad load{6e4, 0.3, 0.6, 0, false};
+  for (int i = 0; i < 400; ++i) {
+    load.triangles = 4e4 + 100 * (i % 400);
+    load.groundMpx = 5e-6 * load.triangles;
+    load.sceneMpx = 2 * load.groundMpx;
+    model.observe(load, machine.cost(load));
+  }
+  const CostCoefficients cost = model.coefficients(load);
+  const double like = coefficientBandMs(cost, load);
+  FrameLoad unlike = load;
+  unlike.groundMpx = 0;
+  EXPECT_GT(coefficientBandMs(cost, unlike), 5 * like);
+  EXPECT_LE(like, cost.bandMs);
+  // The filter itself is the oracle: without noise, bands times its deviation.
+  const auto& ground = model.state().ground;
+  const std::array<double, 4> x{1, unlike.triangles * 1e-4, 0, unlike.sceneMpx};
+  double variance = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) variance += x[i] * x[j] * ground.covariance[i][j];
+  EXPECT_NEAR(coefficientBandMs(cost, unlike), 1.645 * std::sqrt(variance), 1e-6);
+  // Rain adds its own, of which nothing is known yet.
+  FrameLoad rain = load;
+  rain.particles = 1;
+  EXPECT_GE(coefficientBandMs(cost, rain), like);
+  EXPECT_EQ(coefficientBandMs({}, load), 0);
+}
+
+TEST(CostModel, noImageTakesLongerThanItsGreatestRatioOfALoad) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const CostCoefficients cost{.fixed = uniform(random),
+                                .perTriangle = 1e-4 * uniform(random),
+                                .perGroundMpx = 20 * uniform(random),
+                                .perSceneMpx = 20 * uniform(random),
+                                .perParticles = 3 * uniform(random),
+                                .perWeatherMpx = uniform(random),
+                                .perBlurMpx = uniform(random),
+                                .other = uniform(random),
+                                .bandMs = 0,
+                                .known = true};
+    const auto load = [&] {
+      return FrameLoad{1e5 * uniform(random), uniform(random), uniform(random), uniform(random) + 0.01,
+                       i % 2 == 0};
+    };
+    const FrameLoad from = load(), to = load();
+    EXPECT_LE(predict(cost, to).total(),
+              predict(cost, from).total() * mostTimesAsLong(from, to) * (1 + 1e-12));
+  }
+  EXPECT_DOUBLE_EQ(mostTimesAsLong({100, 1, 1, 0, false}, {50, 0.5, 1.21, 0, false}), 1.21);
+  EXPECT_DOUBLE_EQ(mostTimesAsLong({100, 1, 1, 0, false}, {50, 0.5, 1, 0, false}), 1);
+  EXPECT_TRUE(std::isinf(mostTimesAsLong({100, 1, 1, 0, false}, {50, 0.5, 1, 0, true})));
+}
+
 TEST(CostModel, aSpikeMovesItLittle) {
   Machine machine;
   CostModel model;
@@ -175,6 +233,23 @@ TEST(LinearCost, learnsWhileSeveralCoefficientsAreAtZero) {
   stay(19, 46);
 }
 
+/// One image in seven takes 1.4 times as long, because another program had a core: the mean is 6 % late.
+TEST(LinearCost, predictsWhatMostImagesTakeWhereSomeAreLate) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::normal_distribution<double> noise(1, 0.03);
+  LinearCost<2> cost;
+  double late = 0;
+  constexpr int kFirst = 200, kImages = 2000;
+  for (int i = 0; i < kImages; ++i) {
+    const LinearCost<2>::Quantities x{1, 5 + 3 * uniform(random)};
+    const double usual = 2 + 1.5 * x[1];
+    if (i >= kFirst) late += cost.predict(x) / usual - 1;
+    cost.observe(x, usual * noise(random) * (uniform(random) < 0.15 ? 1.4 : 1));
+  }
+  EXPECT_NEAR(late / (kImages - kFirst), 0, 0.03);
+}
+
 /// The first image of a program builds and uploads what the others find.
 TEST(LinearCost, forgetsAFirstImageThatTookMuchLonger) {
   const LinearCost<2>::Quantities x{1, 10};
@@ -183,6 +258,27 @@ TEST(LinearCost, forgetsAFirstImageThatTookMuchLonger) {
   for (int i = 0; i < 20; ++i) with.observe(x, 40), without.observe(x, 40);
   EXPECT_EQ(with.state().coefficient, without.state().coefficient);
   EXPECT_EQ(with.state().covariance, without.state().covariance);
+}
+
+/// Trials come for some images and belong to no load; a method that stays is found within five images.
+TEST(CostModel, trialsOfOcclusionMoveNothing) {
+  const Machine machine;
+  Machine same = machine;
+  CostModel with, without;
+  const auto draw = [](Machine& of, CostModel& model, double occlusionMs) {
+    const FrameLoad load = of.nextLoad();
+    FrameCost cost = of.cost(load);
+    cost.occlusion = occlusionMs, cost.total += occlusionMs;
+    model.observe(load, cost);
+  };
+  Machine tries = machine;
+  for (int i = 0; i < 400; ++i) draw(tries, with, i % 20 < 4 ? 4 : 0), draw(same, without, 0);
+  const CostCoefficients tried = with.coefficients({}), never = without.coefficients({});
+  EXPECT_NEAR(tried.other, never.other, 1e-9);
+  EXPECT_NEAR(tried.fixed, never.fixed, 1e-9);
+  EXPECT_NEAR(tried.perTriangle, never.perTriangle, 1e-9);
+  for (int i = 0; i < 5; ++i) draw(tries, with, 4);
+  EXPECT_NEAR(with.coefficients({}).other, never.other + 4, 0.5);
 }
 
 TEST(CostModel, whatTheFirstImagePagedIsNotWhatEveryImageTakes) {

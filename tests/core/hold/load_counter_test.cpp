@@ -37,8 +37,8 @@ constexpr double kAskedPx = 1.3;
 double errorOf(std::size_t k) {
   if (k == 0) return kAskedPx;
   double px = 0.125;
-  while (px <= kAskedPx) px *= std::exp2(0.125);
-  return px * std::exp2(0.125 * static_cast<double>(k - 1));
+  while (px <= kAskedPx) px *= std::sqrt(2);
+  return px * std::pow(std::sqrt(2), static_cast<double>(k - 1));
 }
 
 /// Views from inside, above and beyond a square of so many metres.
@@ -189,8 +189,8 @@ TEST(TrianglesAt, liesOnTheLadderAndBetweenItsSteps) {
   TriangleLadder ladder{};
   for (std::size_t k = 0; k < kErrorSteps; ++k) ladder[k] = 9000 - 100 * static_cast<double>(k);
   EXPECT_DOUBLE_EQ(trianglesAt(ladder, 2, 2), 9000);
-  EXPECT_NEAR(trianglesAt(ladder, 2, 4), 8200, 1e-9);
-  EXPECT_NEAR(trianglesAt(ladder, 2, 2 * std::exp2(0.3125)), 8750, 1e-9);
+  EXPECT_NEAR(trianglesAt(ladder, 2, 4), 8800, 1e-9);
+  EXPECT_NEAR(trianglesAt(ladder, 2, 2 * std::exp2(0.3125)), 8937.5, 1e-9);
   EXPECT_NEAR(trianglesAt(ladder, 2, 640), 9000 - 100.0 * (kErrorSteps - 1), 1e-9);
   EXPECT_DOUBLE_EQ(trianglesAt(ladder, 2, 1), 9000);
   // From an error between two places the first step is shorter than a place.
@@ -201,8 +201,8 @@ TEST(TrianglesAt, liesOnTheLadderAndBetweenItsSteps) {
 
 TEST(TrianglesAt, placesToNextLieAboveNoneAndAtMostOne) {
   EXPECT_DOUBLE_EQ(placesToNext(1), 1);
-  EXPECT_NEAR(placesToNext(kAskedPx), 8 * std::log2(errorOf(1) / kAskedPx), 1e-9);
-  EXPECT_DOUBLE_EQ(placesToNext(0.125 * std::exp2(7.0 / 16)), 0.5);
+  EXPECT_NEAR(placesToNext(kAskedPx), 2 * std::log2(errorOf(1) / kAskedPx), 1e-9);
+  EXPECT_DOUBLE_EQ(placesToNext(0.125 * std::exp2(7.0 / 4)), 0.5);
   for (const double px : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
     EXPECT_EQ(placesToNext(px), 1) << px;
 }

@@ -114,6 +114,25 @@ TEST(HoldSession, keepsImagesWithinTheBudgetOnceItKnowsTheirCost) {
   EXPECT_LE(over, 12);
 }
 
+/// An eye that rests, flies, rests and turns its head.
+TEST(HoldSession, knowsWhetherTheEyeMoves) {
+  Session session(holding(14));
+  session.setLoadIndex(tiles());
+  AircraftState state = stateOf(0);
+  for (int i = 0; i < 240; ++i) {
+    state.time = i / 60.0;
+    const int phase = i / 60;
+    if (phase == 1) state.position.latitude = state.position.latitude + Degrees{1e-5};
+    if (phase == 3) state.head = Attitude{Degrees{0.5 * (i - 180)}, {}, {}};
+    session.fly(state, state.time);
+    session.request(state.time, 640, 360);
+    const bool noticed = i % 60 > 30;
+    if (noticed) {
+      EXPECT_EQ(session.hold().given().moves, phase % 2 == 1) << i;
+    }
+  }
+}
+
 TEST(HoldSession, namesTheNodesOfComingImages) {
   for (const bool holds : {false, true}) {
     TuningParameters p;

@@ -7,6 +7,7 @@
 
 #include "trimtab/preset/parameters.h"
 #include "trimtab/units/linear.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 
@@ -23,13 +24,16 @@ class OcclusionChoice {
  public:
   /// Share of all frame time that trials may lose. A flight whose every frame asks for trials loses no more.
   static constexpr double kExploring = 0.01;
-  /// A method that was found to be worth less than another is due again after this time (ms), this way of the
-  /// eye (m) or this turn of the view (radians). An eye that flies, turns or rests can each uncover ground
-  /// for which another method is better.
+  /// What a trial loses beyond the room of its frame (Situation::roomMs) counts so many times. Frames that
+  /// fill their budget then have a trial less than once in a hundred, where 1 % of them may be late.
+  static constexpr double kBeyondRoom = 10;
+  /// A method that was found to be worth less than another is due again after this time of drawing (ms), this
+  /// way of the eye (m) or this turn of the view (radians). An eye that flies, turns or rests can each
+  /// uncover ground for which another method is better.
   static constexpr double kBelievedMs = 1000, kBelievedM = 50, kBelievedTurn = 0.1;
-  /// The three limits above double with every trial that finds the same, up to this factor. It multiplies
-  /// them again for a method that costs more than it could save. Without the factor trials took twice the
-  /// frames.
+  /// The three limits above double with every trial that finds the same, up to this factor, until the rule
+  /// changes. It multiplies them again for a method that costs more than it could save. Without the factor
+  /// trials took twice the frames.
   static constexpr double kMostPatience = 6;
   /// An eye that moves further than this (m) in one frame was put elsewhere: everything is tried again.
   static constexpr double kLeapM = kMostPatience * kBelievedM;
@@ -37,11 +41,12 @@ class OcclusionChoice {
   using Method = std::optional<OcclusionMethod>;  ///< unset: nothing looks for hidden ground
 
   struct Situation {
-    double timeMs = 0;       ///< from a clock that never goes back
+    double timeMs = 0;       ///< spent on drawing so far
     Vec3 eye, forward;       ///< position and view direction, both in one frame of reference
     std::uint64_t rule = 0;  ///< a new number when parameters or the terrain change
     std::span<const OcclusionMethod> methods;  ///< those that can be used; read during the call only
     std::uint64_t band = 0;                    ///< a new number when the resolution of the methods changes
+    double roomMs = kInfinity;                 ///< what the next frame may take longer than without a trial
   };
   /// Returns the method for the next frame.
   Method choose(const Situation& situation);
@@ -87,6 +92,8 @@ class OcclusionChoice {
   bool isNew(std::size_t arm) const { return !arms_[arm].known || arms_[arm].chapter != chapter_; }
   bool isDue(std::size_t arm, const Situation& now) const;
   double lossOfTrying(std::size_t arm) const;
+  /// Returns what a loss in the next frame takes from the budget of a trial.
+  double price(double lossMs) const { return lossMs > now_.roomMs ? kBeyondRoom * lossMs : lossMs; }
   std::size_t best() const;
   void learnTriangleCost(const Outcome& outcome);
   void learnArm(const Outcome& outcome);

@@ -22,9 +22,9 @@ struct HeldLevers {
 
 /// The work time of one image by stage, milliseconds, predicted or measured.
 struct StageTimes {
-  double ground = 0;  ///< selection, occlusion and drawing, without the stages below
+  double ground = 0;  ///< selection, culling and drawing, without the stages below
   double weather = 0, blur = 0;
-  double other = 0;  ///< decision, symbols and paging
+  double other = 0;  ///< decision, looking for hidden ground, symbols and paging
 
   double total() const { return ground + weather + blur + other; }
   friend bool operator==(const StageTimes&, const StageTimes&) = default;

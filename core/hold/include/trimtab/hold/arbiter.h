@@ -20,16 +20,16 @@
 ///
 /// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
 /// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
-/// in one step, because each step of it exchanges levels, and while the view turns only after a second or if
+/// in one step, because each step of it exchanges levels, and while the eye moves only after a second or if
 /// the image takes less than three quarters of the limit, so that a glance does not exchange them twice. It
 /// also waits until the meshes that it needs are built (Renderer::buildAhead), for at most two seconds. A
-/// restoration that is taken back within a second makes the next one wait twice as long, up to 32 times,
-/// until one has lasted for four seconds or the view turns.
+/// restoration that is taken back within four seconds makes the next one wait twice as long, up to 32 times,
+/// until one has lasted for as long; while the eye moves that halves every four seconds.
 ///
-/// While the triangles of the coming views change, the allowed error moves by half octaves, so that a glance
-/// changes levels once or twice. Once they have been steady for hold.calm_ms it moves by eighths of an
-/// octave, so that little more is given up than the budget asks: a change must win more than a tenth of the
-/// loss, and one that exchanges levels more than a fifth.
+/// The allowed error moves by half octaves, so that a glance changes levels once or twice; the other levers
+/// take what that gives up too much. Restoring must win more than a tenth of the loss, and more than a fifth
+/// if it exchanges levels. It goes only where the model is sure that it fits: a setting unlike those that
+/// were drawn lately counts as longer by hold.caution of the bands that this adds (coefficientBandMs).
 namespace trimtab {
 
 /// Everything that an image's arbitration depends on beside its memory, as plain numbers, so that a trace can
@@ -41,6 +41,7 @@ struct HoldGiven {
   double unseenPx = 0;         ///< errorInMotion() of the error that is asked for: up to it nothing is lost
   double particles = 0;        ///< density of what falls times asked.particleShare
   bool blurs = false;          ///< head motion asks for blur
+  bool moves = false;          ///< the eyes of the coming images are elsewhere, or turned
   double imageMpx = 0;         ///< millions of pixels of the image
   double groundMpx = 0;        ///< of those, millions below the horizon; the most of the views counted
   TriangleLadder triangles{};  ///< by allowed error; the most of the views counted
@@ -50,9 +51,9 @@ struct HoldGiven {
   friend bool operator==(const HoldGiven&, const HoldGiven&) = default;
 };
 
-/// Where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale, an
-/// eighth of an octave apart, so that it rests while what is asked for moves below it. The others are steps
-/// down from what is asked for.
+/// Where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale, half
+/// an octave apart, so that it rests while what is asked for moves below it. The others are steps down from
+/// what is asked for.
 struct HoldSteps {
   std::uint8_t error = 0, renderScale = 0, particles = 0, blur = 0;
   friend bool operator==(const HoldSteps&, const HoldSteps&) = default;
@@ -61,11 +62,9 @@ struct HoldSteps {
 /// What one image's arbitration remembers for the next.
 struct HoldMemory {
   HoldSteps steps;
-  double timeS = 0;      ///< of the last image
-  double calmMs = 0;     ///< how long there has been head-room
-  double triangles = 0;  ///< of the last image, as asked for
-  double steadyMs = 0;   ///< for how long they have changed by at most a hundredth an image
-  double bandMs = 0;     ///< the model's uncertainty, averaged over some 50 images
+  double timeS = 0;   ///< of the last image
+  double calmMs = 0;  ///< how long there has been head-room
+  double bandMs = 0;  ///< the model's uncertainty, averaged over some 50 images
   bool begun = false;
   double restoredMs = kInfinity;  ///< how long ago a lever was restored; infinite once it was lowered again
   double patience = 1;            ///< restoring waits for so many times hold.calm_ms

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <deque>
+
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/hold_decision.h"
 #include "trimtab/hold/linear_cost.h"
@@ -18,6 +21,19 @@ struct FrameLoad {
   friend bool operator==(const FrameLoad&, const FrameLoad&) = default;
 };
 
+/// Standard deviations in the 90 % band of a normal distribution.
+inline constexpr double kNormalBand = 1.645;
+
+/// How uncertain the coefficients of a model are, in squares of their units. A covariance matrix is kept row
+/// by row, each from its diagonal on.
+struct CostVariance {
+  std::array<double, 10> ground{};  ///< of fixed, perTriangle, perGroundMpx and perSceneMpx
+  std::array<double, 3> weather{};  ///< of perParticles and perWeatherMpx
+  double blur = 0;                  ///< of perBlurMpx
+
+  friend bool operator==(const CostVariance&, const CostVariance&) = default;
+};
+
 /// The model as plain numbers, milliseconds a unit of its quantity. A prediction needs nothing else.
 struct CostCoefficients {
   double fixed = 0, perTriangle = 0, perGroundMpx = 0, perSceneMpx = 0;
@@ -26,12 +42,21 @@ struct CostCoefficients {
   double other = 0;
   double bandMs = 0;   ///< the 90 % band of the image that is about to be drawn, to either side
   bool known = false;  ///< enough images were measured to predict one
+  CostVariance variance{};
 
   friend bool operator==(const CostCoefficients&, const CostCoefficients&) = default;
 };
 
 /// Returns the time of an image, by stage.
 StageTimes predict(const CostCoefficients& cost, const FrameLoad& load);
+
+/// Returns the part of an image's 90 % band that comes from uncertain coefficients, milliseconds. It is small
+/// for loads like those that were drawn lately, and grows with what they never told apart.
+double coefficientBandMs(const CostCoefficients& cost, const FrameLoad& load);
+
+/// Returns how many times as long an image may take at most under another load, whatever the coefficients
+/// are: none is negative, so it is the greatest ratio of a quantity; infinite if there was none of it before.
+double mostTimesAsLong(const FrameLoad& before, const FrameLoad& after);
 
 /// Returns what a frame's work took: all of the processor's time, or the GPU's if that is longer.
 double workMs(const FrameCost& cost);
@@ -68,10 +93,11 @@ class CostModel {
   LinearCost<4> ground_;
   LinearCost<2> weather_;
   LinearCost<1> blur_;
-  double other_ = 0, band_ = kNormalBand;
-  std::size_t images_ = 0, otherImages_ = 0;
+  static constexpr std::size_t kOthers = 9;
 
-  static constexpr double kNormalBand = 1.645;  ///< of a normal distribution
+  double other_ = 0, band_ = kNormalBand;
+  std::deque<double> others_;  ///< the last kOthers times of what `other_` is the median of
+  std::size_t images_ = 0;
 };
 
 }  // namespace trimtab

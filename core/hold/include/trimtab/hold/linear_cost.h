@@ -11,9 +11,10 @@ namespace trimtab {
 /// coefficients may drift. It needs no scale of its own: the first image gives one. A first image that takes
 /// more than twice as long as one of the next built what they find, and is forgotten.
 ///
-/// A single image cannot move it far: an error counts as at most three standard deviations, which ignores
-/// spikes. Five such errors in a row, all too long or all too short, are a change of the machine instead, as
-/// when another program takes a core; the coefficients then become uncertain and follow within some images.
+/// A single image cannot move it far: an error counts as at most two standard deviations, because late images
+/// are later than early ones are early, and what most images take is to be predicted. Five errors in a row of
+/// more than three, all too long or all too short, are a change of the machine instead, as when another
+/// program takes a core; the coefficients then become uncertain and follow within some images.
 template <std::size_t N>
 class LinearCost {
  public:
@@ -42,7 +43,7 @@ class LinearCost {
     ++state_.images;
     const double error = ms - predict(x);
     noteSpike(error, kSpike * deviation(x));
-    const double sigma = deviation(x), limit = kSpike * sigma;
+    const double sigma = deviation(x), limit = kCounted * sigma;
     const double counted = std::clamp(error, -limit, limit);
     const Quantities p = covarianceTimes(x);
     const double variance = sigma * sigma;
@@ -92,10 +93,10 @@ class LinearCost {
   }
 
  private:
-  static constexpr double kSpike = 3, kNoiseGain = 0.05, kLeastNoise = 0.01, kDistrust = 0.2;
+  static constexpr double kCounted = 2, kSpike = 3, kNoiseGain = 0.05, kLeastNoise = 0.01, kDistrust = 0.2;
   /// Drift of a coefficient in one image, as a part of its scale: the first (what is there in every image)
   /// within some tens of images, the others within some hundreds.
-  static constexpr double kFirstDrift = 0.01, kDrift = 0.003;
+  static constexpr double kFirstDrift = 0.007, kDrift = 0.002;
   static constexpr int kChange = 5;
   static constexpr double kFirst = 8;  ///< images among which the first may be forgotten
 
