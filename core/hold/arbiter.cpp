@@ -134,17 +134,20 @@ class Search {
   /// cannot stay there. `caution` is hold.caution.
   Search(const HoldGiven& given, const Choice& choice, const HoldSteps& before, std::size_t kept,
          double caution)
-      : given_(given), choice_(choice), before_(before), kept_(kept), caution_(caution) {}
+      : given_(given), choice_(choice), kept_(kept), caution_(caution), loadBefore_(loadAt(before)) {
+    msBefore_ = predict(given.cost, loadBefore_).total();
+    bandBefore_ = coefficientBandMs(given.cost, loadBefore_);
+  }
 
   double timeAt(const HoldSteps& s) const { return predictAt(s).total(); }
   StageTimes predictAt(const HoldSteps& s) const { return predict(given_.cost, loadAt(s)); }
   /// Returns the time with `caution` of the bands by which it is less certain than at the steps before, but
   /// no more than it can be.
   double timeForSure(const HoldSteps& s) const {
-    const FrameLoad from = loadAt(before_), to = loadAt(s);
-    const double known = coefficientBandMs(given_.cost, from), band = coefficientBandMs(given_.cost, to);
-    const double late = caution_ * std::sqrt(std::max(band * band - known * known, 0.0));
-    return std::min(timeAt(s) + late, timeAt(before_) * mostTimesAsLong(from, to));
+    const FrameLoad load = loadAt(s);
+    const double band = coefficientBandMs(given_.cost, load);
+    const double late = caution_ * std::sqrt(std::max(band * band - bandBefore_ * bandBefore_, 0.0));
+    return std::min(timeAt(s) + late, msBefore_ * mostTimesAsLong(loadBefore_, load));
   }
 
   /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do, the one that
@@ -193,9 +196,10 @@ class Search {
 
   const HoldGiven& given_;
   const Choice& choice_;
-  HoldSteps before_;
   std::size_t kept_;
   double caution_;
+  FrameLoad loadBefore_;
+  double msBefore_ = 0, bandBefore_ = 0;
 };
 
 /// Returns the steps one image nearer to `to`, which are fewer: blur at once, the error too if it may return,
