@@ -64,7 +64,7 @@ double coefficientBandMs(const CostCoefficients& c, const FrameLoad& load) {
   double variance = varianceOf<4>(v.ground, {1, load.triangles, load.groundMpx, load.sceneMpx});
   if (load.particles > 0) variance += varianceOf<2>(v.weather, {load.particles, load.sceneMpx});
   if (load.blurs) variance += v.blur * load.sceneMpx * load.sceneMpx;
-  return kNormalBand * std::sqrt(std::max(variance, 0.0));
+  return kNormalBand * std::sqrt(variance);
 }
 
 double mostTimesAsLong(const FrameLoad& before, const FrameLoad& after) {

@@ -158,7 +158,7 @@ TEST(Arbiter, restoresOnlyWhereTheModelIsSure) {
   }
 }
 
-/// A machine that takes 1.8 times as long for triangles a third of a second in four, while the eye moves.
+/// A machine that takes 1.8 times as long for triangles during a quarter of the time, while the eye moves.
 TEST(Arbiter, patienceOutlastsAMovingEye) {
   HoldMemory memory;
   HoldParameters p = enabled();

@@ -24,8 +24,8 @@ class OcclusionChoice {
  public:
   /// Share of all frame time that trials may lose. A flight whose every frame asks for trials loses no more.
   static constexpr double kExploring = 0.01;
-  /// What a trial loses beyond the room of its frame (Situation::roomMs) counts so many times. Frames that
-  /// fill their budget then have a trial less than once in a hundred, where 1 % of them may be late.
+  /// A loss that does not fit the room of its frame (Situation::roomMs) counts so many times. In the long run
+  /// frames that fill their budget then have a trial less than once in a hundred, where 1 % may be late.
   static constexpr double kBeyondRoom = 10;
   /// A method that was found to be worth less than another is due again after this time of drawing (ms), this
   /// way of the eye (m) or this turn of the view (radians). An eye that flies, turns or rests can each

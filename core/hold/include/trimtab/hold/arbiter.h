@@ -10,7 +10,7 @@
 
 /// Keeps the predicted time of each image within the budget.
 ///
-/// Each image, the arbiter looks at every setting of the levers that it may move, some thousands, and
+/// Each image, the arbiter looks at every setting of the levers that it may move, some two thousand, and
 /// takes the one that loses least among those that fit. A setting with another allowed error than the image
 /// before counts as losing a quarter more, because it exchanges levels of detail. Prediction comes first and
 /// measurement only corrects the model, so there is nothing to oscillate: Funkhouser and Sequin, "Adaptive
