@@ -25,9 +25,10 @@ inline constexpr std::array kHoldRows{
     row<&TuningParameters::hold, &HoldParameters::caution>(
         {.key = "hold.caution",
          .label = "Caution",
-         .help = "An image that takes longer than predicted by so many of the model's 90 % bands still ends "
-                 "within 1.1 of the budget. 1.41 lets one image in a hundred end later. 0 holds the median "
-                 "image to the budget.",
+         .help =
+             "An image that takes longer than predicted by so many of the model's 90 % bands still ends "
+             "within 1.1 of the budget. 1.41 lets one image in a hundred end later. 0 holds the median "
+             "image to the budget. What is restored must leave room for as many of the bands that it adds.",
          .hard = {0, 5},
          .usual = {0, 2},
          .step = 0.05,
