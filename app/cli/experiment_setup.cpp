@@ -1,10 +1,13 @@
 #include "experiment_setup.h"
 
+#include <filesystem>
+
 #include "commands.h"
 #include "progress.h"
 #include "settings.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
 #include "trimtab/terrain/bake/cache.h"
 #include "trimtab/terrain/format/database.h"
 
@@ -59,6 +62,27 @@ bool mayWriteTo(const std::string& folder) {
   const auto writable = makeWritable(folder);
   report(writable.findings());
   return writable.ok();
+}
+
+bool mayWriteFile(const std::string& file) {
+  if (file.empty()) return true;
+  const auto writable = canWriteIn(std::filesystem::absolute(file).parent_path());
+  report(writable.findings());
+  return writable.ok();
+}
+
+bool wrotePreset(const SetupArguments& arguments, const TuningParameters& parameters,
+                 const std::string& file) {
+  Result<Preset> preset = loadPreset(arguments.preset);
+  report(preset.findings());
+  if (!preset) return false;
+  preset->parameters = parameters;
+  const Result<std::string> text = presetText(*preset);
+  report(text.findings());
+  if (!text) return false;
+  const auto written = writeAtomically(file, *text);
+  report(written.findings());
+  return written.ok();
 }
 
 bool isDamaged(const experiment::Setup& setup) {

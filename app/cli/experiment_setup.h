@@ -26,6 +26,11 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments);
 
 /// Sees, before the work, that a folder can take its results. Prints what is wrong. An empty name is none.
 bool mayWriteTo(const std::string& folder);
+/// Sees the same of the folder of a file.
+bool mayWriteFile(const std::string& file);
+/// Writes the setup's preset with other parameters, as differences from its base. Prints what is wrong.
+bool wrotePreset(const SetupArguments& arguments, const TuningParameters& parameters,
+                 const std::string& file);
 /// Prints the damage of the terrain that the work met: images of what is not there are no measurement.
 bool isDamaged(const experiment::Setup& setup);
 

@@ -14,13 +14,13 @@ namespace {
 struct LeverageOptions {
   SetupArguments setup;
   std::size_t frames = 24;
-  std::string output;
+  std::string output, losses;
   bool json = false;
 };
 
 int run(const LeverageOptions& arguments) {
   stopWhenAsked();
-  if (!mayWriteTo(arguments.output)) return kRefused;
+  if (!mayWriteTo(arguments.output) || !mayWriteFile(arguments.losses)) return kRefused;
   std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
   if (!setup) return kRefused;
   setup->frames = arguments.frames;
@@ -28,6 +28,11 @@ int run(const LeverageOptions& arguments) {
   report(done.findings());
   if (!done || isDamaged(*setup)) return kRefused;
   std::cout << (arguments.json ? toJson(*done) : toText(toReport(*done)));
+  if (!arguments.losses.empty()) {
+    TuningParameters tuned = setup->parameters;
+    takeLosses(*done, tuned.hold);
+    if (!wrotePreset(arguments.setup, tuned, arguments.losses)) return kRefused;
+  }
   if (arguments.output.empty()) return kDone;
   const auto written = writeLeverage(arguments.output, *done);
   report(written.findings());
@@ -51,6 +56,8 @@ void addLeverage(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(1, 10000));
   command->add_option("-o,--output", arguments->output,
                       "Folder for leverage.json, leverage.csv and leverage.svg");
+  command->add_option("--losses", arguments->losses,
+                      "Preset file that receives what the arbiter loses by each lever, hold.loss_*");
   command->add_flag("--json", arguments->json, "One JSON document on standard output");
   command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
 }

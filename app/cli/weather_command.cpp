@@ -8,7 +8,6 @@
 #include "commands.h"
 #include "experiment_setup.h"
 #include "progress.h"
-#include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/units/number.h"
 
@@ -73,13 +72,9 @@ void printJson(const experiment::CalibratedWeather& calibrated) {
 
 int calibrate(const WeatherOptions& arguments) {
   stopWhenAsked();
-  if (!arguments.output.empty()) {
-    const std::filesystem::path folder = std::filesystem::absolute(arguments.output).parent_path();
-    if (const auto writable = canWriteIn(folder); !writable) return report(writable.findings()), kRefused;
-  }
-  const auto loaded = loadPreset(arguments.setup.preset);
+  if (!mayWriteFile(arguments.output)) return kRefused;
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
-  if (!loaded || !setup) return kRefused;
+  if (!setup) return kRefused;
   experiment::WeatherCalibration wanted{stepsOf(arguments.steps), {}};
   if (arguments.vertices > 0) wanted.vertices = arguments.vertices;
   const auto calibrated = experiment::calibrateWeather(*setup, wanted);
@@ -91,16 +86,10 @@ int calibrate(const WeatherOptions& arguments) {
     print(*calibrated);
   if (arguments.output.empty()) return kDone;
 
-  Preset preset = *loaded;
-  preset.parameters = setup->parameters;
+  TuningParameters tuned = setup->parameters;
   for (const StepCalibration& step : calibrated->steps)
-    if (step.outcome != CalibrationOutcome::not_a_number) apply(step, preset.parameters);
-  const Result<std::string> text = presetText(preset);
-  report(text.findings());
-  if (!text) return kRefused;
-  const auto written = writeAtomically(arguments.output, *text);
-  report(written.findings());
-  return written ? kDone : kRefused;
+    if (step.outcome != CalibrationOutcome::not_a_number) apply(step, tuned);
+  return wrotePreset(arguments.setup, tuned, arguments.output) ? kDone : kRefused;
 }
 
 }  // namespace

@@ -65,6 +65,10 @@ int addRows(Table& table, const std::string& form, const MotionRuns& runs) {
   row("lod_scale_max",
       [](const MotionRun& r) { return *std::max_element(r.lodScale.begin(), r.lodScale.end()); });
   row("lod_scale_end", [](const MotionRun& r) { return r.lodScale.back(); });
+  row("images_blurred", [&](const MotionRun& r) {
+    const std::vector<double> blur = part(r.blur, from, to);
+    return double(std::count_if(blur.begin(), blur.end(), [](double strength) { return strength > 0; }));
+  });
   row("mean_difference_of_255", [&](const MotionRun& r) { return meanDifference(r, runs[0]); });
   return from;
 }
@@ -124,6 +128,9 @@ Result<Report> runHeadMotion(const Setup& setup) {
       "The published rates are a graphics card's at a steady 100 to 450 a second; compare ratios to the "
       "column "
       "before.");
+  report.notes.push_back(
+      "hold is document C with restoration under the arbiter, which may leave out its blur; images_blurred "
+      "counts those of the sweep that have any.");
   report.notes.push_back(
       "mean_difference_of_255 is what LOD scale and blur change in the picture, averaged over the sweep's "
       "pictures: their price.");

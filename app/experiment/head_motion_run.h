@@ -20,13 +20,13 @@ inline constexpr int kImagesPerS = 200;
 struct MotionMode {
   MotionControl control;
   const char* name;
-  bool holds = false;  ///< the arbiter holds the budget
+  bool holds = false;  ///< the arbiter holds the budget, and leaves out the blur that costs more than it wins
 };
 inline constexpr std::array<MotionMode, 4> kMotionModes{
     {{MotionControl::off, "before"},
      {MotionControl::lod_scale_and_blur, "lod_scale_and_blur"},
      {MotionControl::with_restoration, "with_restoration"},
-     {MotionControl::off, "hold", true}}};
+     {MotionControl::with_restoration, "hold", true}}};
 
 /// How a head moves: its attitude relative to the aircraft at each second from 0 on.
 struct HeadProfile {

@@ -13,22 +13,34 @@
 namespace trimtab::experiment {
 namespace {
 
-constexpr std::size_t kMeasured = 6;
+constexpr std::size_t kMeasured = 8;
 constexpr std::array kFixedErrorsPx{1.0, 2.0, 4.0, 8.0};
 constexpr std::array kFixedScales{1.0, 0.7, 0.5};
 constexpr const char* kBuiltInHead = "sweep:120/0.7/1";
 
 using Runs = std::array<HoldRun, kHoldModes.size()>;
+using Stages = std::array<std::unique_ptr<Stage>, kHoldModes.size()>;
 
 std::vector<double> ofStrain(const std::vector<double>& values, const Strain& strain) {
   return {values.begin() + std::ptrdiff_t(strain.from), values.begin() + std::ptrdiff_t(strain.to)};
 }
 
-std::size_t changes(const std::vector<double>& values, const Strain& strain) {
-  std::size_t count = 0;
-  for (std::size_t i = strain.from; i < values.size(); ++i)
-    count += i > 0 && std::abs(values[i] / values[i - 1] - 1) > 0.01;
-  return count;
+/// Returns the images of the strain, and after it, that differ from the image before.
+std::vector<std::size_t> changes(const std::vector<double>& values, const Strain& strain) {
+  std::vector<std::size_t> images;
+  for (std::size_t i = std::max<std::size_t>(strain.from, 1); i < values.size(); ++i)
+    if (std::abs(values[i] / values[i - 1] - 1) > 0.01) images.push_back(i);
+  return images;
+}
+
+/// A glance is not longer than a second.
+std::size_t mostInASecond(const std::vector<std::size_t>& images, const Strain& strain) {
+  std::size_t most = 0;
+  for (std::size_t first = 0, i = 0; i < images.size(); ++i) {
+    while (strain.states[images[i]].time - strain.states[images[first]].time > 1) ++first;
+    most = std::max(most, i + 1 - first);
+  }
+  return most;
 }
 
 /// What came of the levers after the strain.
@@ -58,8 +70,9 @@ double flipOf(const HoldRun& run, double ExposedError::*which) {
   return meanOf(flips);
 }
 
+/// `heldP99Ms` is the 99th percentile of mode *hold*, flown in turns with the run.
 void addRow(Table& table, const Strain& strain, const std::string& mode, double budgetMs, const HoldRun& run,
-            const HoldRun& off) {
+            const HoldRun& off, double heldP99Ms) {
   const std::vector<double> ms = ofStrain(run.ms, strain);
   const auto over = [&](double part) {
     return double(std::count_if(ms.begin(), ms.end(), [&](double m) { return m > part * budgetMs; })) /
@@ -90,7 +103,8 @@ void addRow(Table& table, const Strain& strain, const std::string& mode, double 
                         over(1.1),
                         flipOf(run, &ExposedError::sharp),
                         flipOf(run, &ExposedError::smeared),
-                        double(changes(run.errorPx, strain)),
+                        double(changes(run.errorPx, strain).size()),
+                        double(mostInASecond(changes(run.errorPx, strain), strain)),
                         *std::min_element(run.particles.begin(), run.particles.end()),
                         orNone(triangles, triangles.empty() ? 0 : quantileOf(triangles, 0.5)),
                         orNone(times, times.empty() ? 0 : quantileOf(times, 0.5)),
@@ -98,7 +112,8 @@ void addRow(Table& table, const Strain& strain, const std::string& mode, double 
                         run.lookMs,
                         std::isnan(settling.ms) ? Cell() : Cell(settling.ms),
                         std::isnan(settling.ms) ? Cell() : Cell(settling.slowestOverMedian),
-                        limit > 0 ? Cell(limit / budgetMs) : Cell()});
+                        limit > 0 ? Cell(limit / budgetMs) : Cell(),
+                        quantileOf(ms, 0.99) / heldP99Ms});
 }
 
 /// One number of each image over the strain, a line a mode.
@@ -132,62 +147,72 @@ void addPlots(const Strain& strain, const Runs& runs, double budgetMs, std::size
 
 /// What flies, and what is told meanwhile: how many flights of the strain are done, and what is flown.
 struct Desk {
-  Stage& stage;  ///< of mode *off*
+  const Stages& stages;  ///< by mode
   Referee& referee;
   const Setup& setup;
   std::function<bool(double flights, const std::string& what)> go;
+
+  Stage& stage(HoldMode mode) const { return *stages[std::size_t(mode)]; }
 };
 
 constexpr std::size_t kFixedSettings = kFixedErrorsPx.size() * kFixedScales.size();
 
-/// Flies every fixed setting of allowed error, render scale and (where something falls) particles, and says
-/// which loses least of those whose 99th percentile is at most that of mode *hold*.
-bool addFixed(const Desk& desk, const Strain& strain, std::size_t every, double budgetMs, const Runs& runs,
-              Report& report) {
-  const HoldRun& held = runs[std::size_t(HoldMode::hold)];
-  const double p99 = quantileOf(ofStrain(held.ms, strain), 0.99);
-  const bool falls = std::any_of(strain.states.begin(), strain.states.end(), [](const AircraftState& state) {
-    return state.weather && state.weather->severity > 0;
-  });
-  const auto parameters = inMode(desk.setup.parameters, HoldMode::off, budgetMs);
-  if (!parameters) return false;
-  const std::vector<double> shares = falls ? std::vector{1.0, 0.25} : std::vector{1.0};
-  double flown = 0;
-  std::string best = "none";
-  double least = std::numeric_limits<double>::infinity();
+bool somethingFalls(const Strain& strain) {
+  return std::any_of(strain.states.begin(), strain.states.end(),
+                     [](const AircraftState& state) { return state.weather && state.weather->severity > 0; });
+}
+
+std::string bestNote(const Strain& strain, const std::string& best, double least, double held) {
+  char text[300];
+  if (best.empty())
+    std::snprintf(text, sizeof text,
+                  "%s: no fixed setting has a 99th percentile of at most that of hold, whose smeared FLIP is "
+                  "%.4f.",
+                  strain.name.c_str(), held);
+  else
+    std::snprintf(
+        text, sizeof text,
+        "%s: of fixed settings whose 99th percentile is at most that of hold in turns with them, the "
+        "best is %s, smeared FLIP %.4f; hold has %.4f, %.2f of it.",
+        strain.name.c_str(), best.c_str(), least, held, held / least);
+  return text;
+}
+
+/// Flies every fixed setting of allowed error, render scale and (where something falls) particles in turns
+/// with mode *hold*, which begins with `model`, and says which loses least of those whose 99th percentile is
+/// at most that of *hold*.
+bool addFixed(const Desk& desk, const Strain& strain, const TuningParameters& preset, std::size_t every,
+              double budgetMs, const CostModel& model, const Runs& runs, Report& report) {
+  const auto plain = inMode(preset, HoldMode::off, budgetMs), held = inMode(preset, HoldMode::hold, budgetMs);
+  if (!plain || !held) return false;
+  const std::vector<double> shares = somethingFalls(strain) ? std::vector{1.0, 0.25} : std::vector{1.0};
+  const auto p99 = [&](const HoldRun& run) { return quantileOf(ofStrain(run.ms, strain), 0.99); };
+  double flown = 0, least = std::numeric_limits<double>::infinity();
+  std::string best;
   for (const double error : kFixedErrorsPx)
     for (const double scale : kFixedScales)
       for (const double particles : shares) {
         char name[60];
-        std::snprintf(name, sizeof name, falls ? "%g px, scale %g, particles %g" : "%g px, scale %g", error,
-                      scale, particles);
+        std::snprintf(name, sizeof name,
+                      shares.size() > 1 ? "%g px, scale %g, particles %g" : "%g px, scale %g", error, scale,
+                      particles);
         const auto go = [&](double part) {
           return desk.go(double(1 + runs.size()) + (flown + part) / double(shares.size()), name);
         };
-        HoldPilot pilot(desk.stage, desk.referee, desk.setup,
-                        {*parameters, HeldLevers{error, scale, particles, 1}, every}, strain, {});
-        const auto run = fly(pilot, strain, go);
-        if (!run) return false;
+        HoldPilot fixed(desk.stage(HoldMode::off), desk.referee, desk.setup,
+                        {*plain, HeldLevers{error, scale, particles, 1}, every}, strain, {});
+        HoldPilot holds(desk.stage(HoldMode::hold), desk.referee, desk.setup, {*held, std::nullopt, 0},
+                        strain, model);
+        HoldPilot* const both[] = {&fixed, &holds};
+        const auto pair = flyInTurns(both, strain, go);
+        if (!pair) return false;
         ++flown;
-        addRow(report.measured, strain, name, budgetMs, *run, runs[0]);
-        const double flip = flipOf(*run, &ExposedError::smeared);
-        if (quantileOf(ofStrain(run->ms, strain), 0.99) <= p99 && flip < least) least = flip, best = name;
+        addRow(report.measured, strain, name, budgetMs, (*pair)[0], runs[0], p99((*pair)[1]));
+        const double flip = flipOf((*pair)[0], &ExposedError::smeared);
+        if (p99((*pair)[0]) <= p99((*pair)[1]) && flip < least) least = flip, best = name;
       }
-  const double smeared = flipOf(held, &ExposedError::smeared);
-  char text[300];
-  if (std::isinf(least))
-    std::snprintf(
-        text, sizeof text,
-        "%s: no fixed setting has a 99th percentile of at most %.1f ms, as hold has, whose smeared FLIP is "
-        "%.4f.",
-        strain.name.c_str(), p99, smeared);
-  else
-    std::snprintf(
-        text, sizeof text,
-        "%s: of fixed settings whose 99th percentile is at most %.1f ms, as of hold, the best is %s, "
-        "smeared FLIP %.4f; hold has %.4f, %.2f of it.",
-        strain.name.c_str(), p99, best.c_str(), least, smeared, smeared / least);
-  report.notes.push_back(text);
+  const HoldRun& hold = runs[std::size_t(HoldMode::hold)];
+  report.notes.push_back(bestNote(strain, best, least, flipOf(hold, &ExposedError::smeared)));
   return true;
 }
 
@@ -201,29 +226,27 @@ std::string lossNote(const Strain& strain, const HoldParameters& hold) {
   return text;
 }
 
-/// Flies the strain in all modes, image by image in turns, so that what else the machine does meets all of
-/// them; each mode draws with a renderer of its own. `model` is what mode *hold* begins with, and learns.
-Result<Runs> flyInTurns(const std::array<std::unique_ptr<Stage>, kHoldModes.size()>& stages, const Desk& desk,
-                        const Strain& strain, const TuningParameters& preset, std::size_t every,
-                        double budgetMs, CostModel& model) {
-  std::vector<std::unique_ptr<HoldPilot>> pilots;
-  for (std::size_t m = 0; m < stages.size(); ++m) {
+/// Flies the strain in all modes, each with a renderer of its own. `model` is what mode *hold* begins with,
+/// and learns.
+Result<Runs> flyModes(const Desk& desk, const Strain& strain, const TuningParameters& preset,
+                      std::size_t every, double budgetMs, CostModel& model) {
+  std::array<std::unique_ptr<HoldPilot>, kHoldModes.size()> pilots;
+  std::array<HoldPilot*, kHoldModes.size()> inTurns{};
+  for (std::size_t m = 0; m < pilots.size(); ++m) {
     const auto mode = static_cast<HoldMode>(m);
     const Result<ValidatedParameters> parameters = inMode(preset, mode, budgetMs);
     if (!parameters) return parameters.findings();
-    pilots.push_back(std::make_unique<HoldPilot>(*stages[m], desk.referee, desk.setup,
-                                                 HoldFlight{*parameters, std::nullopt, every}, strain,
-                                                 mode == HoldMode::hold ? model : CostModel{}));
+    pilots[m] = std::make_unique<HoldPilot>(desk.stage(mode), desk.referee, desk.setup,
+                                            HoldFlight{*parameters, std::nullopt, every}, strain,
+                                            mode == HoldMode::hold ? model : CostModel{});
+    inTurns[m] = pilots[m].get();
   }
-  for (std::size_t i = 0; i < strain.states.size(); ++i) {
-    if (i % kAskedStates == 0) {
-      const double part = double(i) / double(strain.states.size());
-      if (!desk.go(1 + part * double(pilots.size()), "all modes in turns")) return cancelled();
-    }
-    for (std::size_t k = 0; k < pilots.size(); ++k) pilots[(i + k) % pilots.size()]->drawNext();
-  }
+  auto flown = flyInTurns(inTurns, strain, [&](double part) {
+    return desk.go(1 + part * double(pilots.size()), "all modes in turns");
+  });
+  if (!flown) return cancelled();
   Runs runs;
-  for (std::size_t m = 0; m < runs.size(); ++m) runs[m] = pilots[m]->run();
+  std::move(flown->begin(), flown->end(), runs.begin());
   model = pilots[std::size_t(HoldMode::hold)]->model();
   return runs;
 }
@@ -237,13 +260,14 @@ GeodeticPosition eyeAbove(const Place& place) {
 
 /// Returns what a program would load at its start: the model after a sweep from another place than that of
 /// the strains. Nothing if the person cancels.
-std::optional<CostModel> learned(Stage& stage, const Desk& desk) {
+std::optional<CostModel> learned(const Desk& desk) {
   const std::vector<Place> places = placesOf(desk.setup, 3);
   const auto parameters =
       inMode(desk.setup.parameters, HoldMode::hold, desk.setup.parameters.measure.budget.value());
   if (places.empty() || !parameters) return CostModel{};
   const Strain strain = sweepStrain(eyeAbove(places.back()));
-  HoldPilot pilot(stage, desk.referee, desk.setup, {*parameters, std::nullopt, 0}, strain, {});
+  HoldPilot pilot(desk.stage(HoldMode::hold), desk.referee, desk.setup, {*parameters, std::nullopt, 0},
+                  strain, {});
   if (!fly(pilot, strain, [&](double) { return desk.go(0, "to learn what images cost"); })) return {};
   return pilot.model();
 }
@@ -259,7 +283,7 @@ Result<std::vector<Strain>> strainsOf(const Setup& setup, std::vector<std::strin
   const HeadLog& head = setup.hold.head ? *setup.hold.head : *builtIn;
   const double seconds = setup.hold.flightS;
   for (const std::optional<Strain>& strain :
-       {headStrain(setup, head, seconds), weatherStrain(setup, seconds), steadyStrain(setup, seconds)})
+       {headStrain(setup, head, seconds), weatherStrain(setup, head, seconds), steadyStrain(setup, seconds)})
     if (strain) strains.push_back(*strain);
   char text[120];
   std::snprintf(text, sizeof text,
@@ -277,7 +301,7 @@ Result<std::vector<Strain>> strainsOf(const Setup& setup, std::vector<std::strin
 }  // namespace
 
 Result<Report> runHold(const Setup& setup) {
-  std::array<std::unique_ptr<Stage>, kHoldModes.size()> stages;
+  Stages stages;
   for (std::unique_ptr<Stage>& stage : stages) {
     auto opened = Stage::open(setup);
     if (!opened) return opened.findings();
@@ -286,16 +310,32 @@ Result<Report> runHold(const Setup& setup) {
   const auto referee = Referee::open(setup);
   if (!referee) return referee.findings();
   Report report{"hold", "C, D: what is left open", stages[0]->machine(), {}, {}, {}, {}};
-  report.measured.columns = {
-      "strain",           "mode",          "budget_ms",    "frame_ms_median", "frame_ms_p95",
-      "frame_ms_p99",     "frame_ms_max",  "slowest_gain", "p99_over_budget", "share_over_1_1",
-      "flip_mean",        "flip_smeared",  "lod_changes",  "particles_kept",  "triangles_error",
-      "ms_error",         "band_coverage", "request_ms",   "settled_ms",      "settling_max_over_median",
-      "limit_over_budget"};
+  report.measured.columns = {"strain",
+                             "mode",
+                             "budget_ms",
+                             "frame_ms_median",
+                             "frame_ms_p95",
+                             "frame_ms_p99",
+                             "frame_ms_max",
+                             "slowest_gain",
+                             "p99_over_budget",
+                             "share_over_1_1",
+                             "flip_mean",
+                             "flip_smeared",
+                             "lod_changes",
+                             "lod_changes_in_1s",
+                             "particles_kept",
+                             "triangles_error",
+                             "ms_error",
+                             "band_coverage",
+                             "request_ms",
+                             "settled_ms",
+                             "settling_max_over_median",
+                             "limit_over_budget",
+                             "p99_over_hold"};
   const Result<std::vector<Strain>> strains = strainsOf(setup, report.notes);
   if (!strains) return strains.findings();
-  const auto first = learned(*stages[std::size_t(HoldMode::hold)],
-                             {*stages[0], **referee, setup, [&](double, const std::string& what) {
+  const auto first = learned({stages, **referee, setup, [&](double, const std::string& what) {
                                 return !setup.progress || setup.progress(0, what);
                               }});
   if (!first) return cancelled();
@@ -310,7 +350,7 @@ Result<Report> runHold(const Setup& setup) {
     measureLosses((*referee)->meter(), setup, *plain, strain, preset.hold);
     report.notes.push_back(lossNote(strain, preset.hold));
     const std::size_t every = std::max<std::size_t>((strain.to - strain.from) / kMeasured, 1);
-    const Desk desk{*stages[0], **referee, setup, [&](double flights, const std::string& what) {
+    const Desk desk{stages, **referee, setup, [&](double flights, const std::string& what) {
                       return !setup.progress ||
                              setup.progress((double(s) + flights / most) / double(strains->size()),
                                             strain.name + ", " + what);
@@ -323,12 +363,14 @@ Result<Report> runHold(const Setup& setup) {
       if (!run) return cancelled();
       budgetMs = kHeldPart * quantileOf(ofStrain(run->ms, strain), 0.5);
     }
-    const Result<Runs> flown = flyInTurns(stages, desk, strain, preset, every, budgetMs, model);
+    const CostModel before = model;
+    const Result<Runs> flown = flyModes(desk, strain, preset, every, budgetMs, model);
     if (!flown) return flown.findings();
     const Runs& runs = *flown;
     for (std::size_t m = 0; m < runs.size(); ++m)
-      addRow(report.measured, strain, kHoldModes[m], budgetMs, runs[m], runs[0]);
-    if (setup.hold.fixedSettings && !addFixed(desk, strain, every, budgetMs, runs, report))
+      addRow(report.measured, strain, kHoldModes[m], budgetMs, runs[m], runs[0],
+             quantileOf(ofStrain(runs[std::size_t(HoldMode::hold)].ms, strain), 0.99));
+    if (setup.hold.fixedSettings && !addFixed(desk, strain, preset, every, budgetMs, before, runs, report))
       return cancelled();
     addPlots(strain, runs, budgetMs, s + 1, report);
   }
@@ -343,9 +385,11 @@ Result<Report> runHold(const Setup& setup) {
       "%s, preset %s, %d x %d. The budget is %s. Work time of each image, the modes in turns image by image, "
       "each with a renderer of its own that builds ahead between images and waits for no page; FLIP of %zu "
       "images, with all pages, against the finest levels, flip_smeared with both smeared by the exposure. "
-      "slowest_gain is the slowest image of off over that of the mode. settled_ms is the time from the end "
+      "slowest_gain is the slowest image of off over that of the mode. lod_changes_in_1s are the most "
+      "changes "
+      "in any second. settled_ms is the time from the end "
       "of the strain until the levers stay. The model of hold has flown a sweep from another place before. "
-      "Fixed settings fly one after the other.",
+      "Each fixed setting flies in turns with hold, which p99_over_hold compares it with.",
       setup.terrainName.c_str(), setup.presetName.c_str(), setup.widthPx, setup.heightPx, budget, kMeasured);
   report.notes.insert(report.notes.begin(), text);
   return report;

@@ -47,6 +47,14 @@ std::optional<Strain> flown(const Setup& setup, const char* name, double seconds
   return strain;
 }
 
+/// Turns the head as the log does `time` seconds after its begin.
+void moveHead(const HeadLog& head, AircraftState& state, double time) {
+  HeadInput input;
+  input.useLog(head);
+  input.begin(state.time - time);
+  input.apply(state, state.time);
+}
+
 void fix(FrameRequest& request, const HeldLevers& levers) {
   setAllowedError(request, levers.errorPx);
   request.renderScale = levers.renderScale;
@@ -71,16 +79,13 @@ Strain sweepStrain(const GeodeticPosition& eye) {
 }
 
 std::optional<Strain> headStrain(const Setup& setup, const HeadLog& head, double seconds) {
-  return flown(setup, "flight with a head log", seconds, [&](AircraftState& state, double time) {
-    HeadInput input;
-    input.useLog(head);
-    input.begin(state.time - time);
-    input.apply(state, state.time);
-  });
+  return flown(setup, "flight with a head log", seconds,
+               [&](AircraftState& state, double time) { moveHead(head, state, time); });
 }
 
-std::optional<Strain> weatherStrain(const Setup& setup, double seconds) {
+std::optional<Strain> weatherStrain(const Setup& setup, const HeadLog& head, double seconds) {
   return flown(setup, "flight through weather", seconds, [&](AircraftState& state, double time) {
+    moveHead(head, state, time);
     struct Phase {
       Precipitation falls;
       int severity;
@@ -107,6 +112,10 @@ Result<ValidatedParameters> inMode(const TuningParameters& preset, HoldMode mode
   p.hold.enabled = mode == HoldMode::hold;
   const bool published = mode == HoldMode::as_published;
   p.motion.control = published ? MotionControl::with_restoration : MotionControl::off;
+  if (published) {
+    p.motion.frames = MotionFrames::drawn;
+    p.weather.precipitationForm = PrecipitationForm::effect;
+  }
   p.weather.ratioMode = mode == HoldMode::off ? RatioMode::off : RatioMode::adaptive;
   if (mode == HoldMode::off || published) {
     p.policy.enabled = false;
@@ -197,9 +206,10 @@ void HoldPilot::drawNext() {
   run_.renderScale.push_back(request.renderScale);
   run_.particles.push_back(request.particleShare);
   run_.limitMs.push_back(request.hold.limitMs);
-  if (const auto& outcome = session_.hold().outcome(); outcome && flight_.parameters->hold.enabled)
+  const bool strains = i >= strain_.from && i < strain_.to;
+  if (const auto& outcome = session_.hold().outcome(); strains && outcome && flight_.parameters->hold.enabled)
     run_.outcomes.push_back(*outcome);
-  if (flight_.flipEvery > 0 && i >= strain_.from && (i - strain_.from) % flight_.flipEvery == 0) {
+  if (strains && flight_.flipEvery > 0 && (i - strain_.from) % flight_.flipEvery == 0) {
     const std::size_t kept = blurs(request) ? before_.size() : std::min<std::size_t>(before_.size(), 1);
     run_.error.push_back(exposedError(referee_.meter(), request, std::span(before_).last(kept), kExposureMs));
   }
@@ -213,13 +223,22 @@ HoldRun HoldPilot::run() const {
   return run;
 }
 
-std::optional<HoldRun> fly(HoldPilot& pilot, const Strain& strain,
-                           const std::function<bool(double part)>& go) {
+std::optional<std::vector<HoldRun>> flyInTurns(std::span<HoldPilot* const> pilots, const Strain& strain,
+                                               const std::function<bool(double part)>& go) {
   for (std::size_t i = 0; i < strain.states.size(); ++i) {
     if (i % kAskedStates == 0 && !go(double(i) / double(strain.states.size()))) return std::nullopt;
-    pilot.drawNext();
+    for (std::size_t k = 0; k < pilots.size(); ++k) pilots[(i + k) % pilots.size()]->drawNext();
   }
-  return pilot.run();
+  std::vector<HoldRun> runs;
+  for (const HoldPilot* pilot : pilots) runs.push_back(pilot->run());
+  return runs;
+}
+
+std::optional<HoldRun> fly(HoldPilot& pilot, const Strain& strain,
+                           const std::function<bool(double part)>& go) {
+  HoldPilot* const alone[] = {&pilot};
+  auto runs = flyInTurns(alone, strain, go);
+  return runs ? std::optional(std::move(runs->front())) : std::nullopt;
 }
 
 }  // namespace trimtab::experiment

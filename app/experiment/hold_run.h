@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,18 +31,18 @@ Strain sweepStrain(const GeodeticPosition& eye);
 /// A piece of the flight at 60 images a second, from its middle on, with the head of a log. Nothing if the
 /// flight is not over the terrain there.
 std::optional<Strain> headStrain(const Setup& setup, const HeadLog& head, double seconds);
-/// The same with a head that rests, while the host turns the weather from clear to light rain, heavy rain,
-/// heavy snow and clear again.
-std::optional<Strain> weatherStrain(const Setup& setup, double seconds);
-/// The same in clear air and with a head that rests.
+/// The same while the host turns the weather from clear to light rain, heavy rain, heavy snow and clear
+/// again.
+std::optional<Strain> weatherStrain(const Setup& setup, const HeadLog& head, double seconds);
+/// The same flight in clear air and with a head that rests.
 std::optional<Strain> steadyStrain(const Setup& setup, double seconds);
 
 enum class HoldMode { off, as_published, policy, hold };
 inline constexpr std::array<const char*, 4> kHoldModes{"off", "as_published", "policy", "hold"};
 
 /// Returns the preset in one mode: without head motion, far cut and policy; with documents C and D as
-/// published; with its policy, or that of the preset helmet-search if it has none; and with the arbiter
-/// on top of its own policy, if it has one.
+/// published, the effect for what falls included; with its policy, or that of the preset helmet-search if it
+/// has none; and with the arbiter on top of its own policy, if it has one.
 Result<ValidatedParameters> inMode(const TuningParameters& preset, HoldMode mode, double budgetMs);
 
 /// Sets what the arbiter loses by each lever to what images of the strain show: the mean FLIP lost at 16 px
@@ -74,8 +75,8 @@ struct HoldRun {
   std::vector<double> ms;  ///< work time
   std::vector<double> errorPx, renderScale, particles;
   std::vector<double> limitMs;        ///< what the arbiter let a prediction reach; 0 without it
-  std::vector<HoldOutcome> outcomes;  ///< of predictions three images ahead
-  std::vector<ExposedError> error;    ///< of the images that were measured
+  std::vector<HoldOutcome> outcomes;  ///< of predictions three images ahead, of the strain's images
+  std::vector<ExposedError> error;    ///< of the strain's images that were measured
   double lookMs = 0;                  ///< median time of session.request(), counting included
 };
 
@@ -83,7 +84,7 @@ struct HoldRun {
 struct HoldFlight {
   ValidatedParameters parameters;
   std::optional<HeldLevers> fixed;  ///< in place of what the preset asks for
-  std::size_t flipEvery = 0;        ///< every so many images one is measured against its reference; 0: none
+  std::size_t flipEvery = 0;        ///< of so many images of the strain one is measured; 0: none
 };
 
 /// Flies a strain in one mode, image by image, with a session of its own. Between two images it builds meshes
@@ -113,8 +114,12 @@ class HoldPilot {
   std::size_t next_ = 0;
 };
 
-/// Draws a whole strain. Returns nothing if `go` returns false.
-/// `go` is asked every kAskedStates images.
+/// Draws a whole strain with several pilots in turns, image by image, so that what else the machine does
+/// meets all of them. Each has a stage of its own. Returns nothing if `go`, which is asked every kAskedStates
+/// images, returns false.
+std::optional<std::vector<HoldRun>> flyInTurns(std::span<HoldPilot* const> pilots, const Strain& strain,
+                                               const std::function<bool(double part)>& go);
+/// The same with one pilot.
 std::optional<HoldRun> fly(HoldPilot& pilot, const Strain& strain,
                            const std::function<bool(double part)>& go);
 

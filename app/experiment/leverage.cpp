@@ -286,4 +286,16 @@ Result<Leverage> measureLeverage(const Setup& setup) {
   return leverage;
 }
 
+void takeLosses(const Leverage& leverage, HoldParameters& hold) {
+  for (const LeverageRow& row : leverage.rows) {
+    Ratio* const loss = row.lever == Lever::screen_space_error ? &hold.lossError
+                        : row.lever == Lever::render_scale     ? &hold.lossRenderScale
+                        : row.lever == Lever::particle_density ? &hold.lossParticles
+                        : row.lever == Lever::blur_strength    ? &hold.lossBlur
+                                                               : nullptr;
+    if (loss != nullptr && std::isfinite(row.flipLost.median))
+      *loss = Ratio{std::clamp(row.flipLost.median, 0.0, 1.0)};
+  }
+}
+
 }  // namespace trimtab::experiment

@@ -73,6 +73,10 @@ std::vector<Moment> momentsOf(const Setup& setup, const ValidatedParameters& par
 /// it is for, which its row names: medium rain, fog, a sweeping head.
 Result<Leverage> measureLeverage(const Setup& setup);
 
+/// Sets what the arbiter loses by each lever that it moves to the median FLIP that was lost; where nothing
+/// was lost, to 0.
+void takeLosses(const Leverage& leverage, HoldParameters& hold);
+
 /// Returns `{leverage: [rows], machine, flight, terrain, preset, frames, ...}`; and the inverse.
 std::string toJson(const Leverage& leverage);
 Result<Leverage> parseLeverage(std::string_view json, const std::string& where);

@@ -2,30 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <thread>
 #include <utility>
 
+#include "trimtab/hold/cost_model_file.h"
 #include "trimtab/measure/statistics.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/grid/progress.h"
 
 namespace trimtab::experiment {
-namespace {
-
-std::string processorName() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("model name")) {
-      const std::size_t colon = line.find(": ");
-      if (colon != std::string::npos) return line.substr(colon + 2);
-    }
-  return "unknown processor";
-}
-
-}  // namespace
 
 Result<std::unique_ptr<Stage>> Stage::open(const Setup& setup) {
   auto offscreen = scene::Offscreen::create(setup.widthPx, setup.heightPx);
@@ -102,8 +88,7 @@ std::vector<std::uint8_t> Stage::shown() {
 }
 
 std::string Stage::machine() const {
-  return processorName() + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores; " +
-         gl_.renderer;
+  return machineName(gl_.renderer);
 }
 
 std::vector<Place> placesOf(const Setup& setup, std::size_t count) {

@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::array<double, 3> kVertices{100000, 120000, 140000};
 constexpr int kMostTrials = 6;
-/// The budget of the arbiter, over the clear frame's time: a frame within 3 % of it counts as equal.
-constexpr double kHeld = 1.03;
+/// The budget of the arbiter, over the clear frame's time. It predicts what most images take, which is some 2
+/// % above the median where some are late, and stays some 3 % below the budget.
+constexpr double kHeld = 1.05;
 
 Plot plotOf(const Table& table, const char* fall) {
   Plot plot{std::string("weather-") + fall,
@@ -112,7 +113,7 @@ Result<Report> runWeather(const Setup& setup) {
       "cut_changed_pixels counts pixels that the far cut changed in the fogged picture, of 255.");
   report.notes.push_back(
       "hold_ms_ratio is the median frame that the arbiter holds, without document D's cut, over the clear "
-      "frame, drawn in turns; its budget is 1.03 of the clear frame, without margin and caution. "
+      "frame, drawn in turns; its budget is 1.05 of the clear frame, without margin and caution. "
       "hold_particles is the share of the preset's density that it keeps.");
   for (const Fall& fall : kFalls) report.plots.push_back(plotOf(report.measured, fall.name));
   return report;

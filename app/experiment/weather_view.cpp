@@ -12,12 +12,16 @@ namespace {
 
 /// Particles fall as time goes on: frames are this far apart.
 constexpr double kFrameS = 1.0 / 60;
-/// Images in which the arbiter settles on what falls now.
-constexpr int kSettles = 120;
 /// What was just built, compiled or grown, or drawn by another renderer, is no frame's cost.
 constexpr int kUncounted = 3;
-/// Clear and held frames are drawn in so many turns each, of so many frames that count.
-constexpr int kTurns = 4, kTurn = 9;
+/// Clear and held frames are drawn in turns of so many frames that count. In the first turns of a cell the
+/// arbiter settles on what falls now, and the others are compared.
+constexpr int kTurn = 9, kSettlingTurns = 10, kTurns = 6;
+/// Before the first cell it is given less and then more of the clear frame's time, as in a flight, so that it
+/// knows what the levers are worth.
+constexpr int kLearningTurns = 12;
+/// The clear frame's time is the median of the last turns, because the machine's speed changes.
+constexpr int kRemembered = 3 * kTurn;
 
 }  // namespace
 
@@ -96,14 +100,12 @@ WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overC
   hold_.setMemory({});
   std::vector<double> clearMs, heldMs;
   Held held;
-  double budgetMs = 0;
-  const auto drawClear = [&] {
-    const std::vector<double> ms = drawn({}, kTurn);
-    budgetMs = overClear * quantileOf(ms, 0.5);
-    clearMs.insert(clearMs.end(), ms.begin(), ms.end());
-  };
-  const auto drawHeld = [&](int images) {
-    for (int i = 0; i < images; ++i) {
+  const auto turn = [&](double part) {
+    const std::vector<double> clear = drawn({}, kTurn);
+    clearMs.insert(clearMs.end(), clear.begin(), clear.end());
+    const auto last = clearMs.end() - std::min<std::ptrdiff_t>(std::ssize(clearMs), kRemembered);
+    const double budgetMs = part * overClear * quantileOf({last, clearMs.end()}, 0.5);
+    for (int i = 0; i < kUncounted + kTurn; ++i) {
       request_.time += kFrameS;
       FrameRequest request = request_;
       request.decision.weather = weather;
@@ -111,16 +113,17 @@ WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overC
       held.levers = hold_.decide(given, parameters, request).held;
       const FrameResult result = heldStage_->draw(request);
       hold_.finished(result, result.cost);
-      if (i >= images - kTurn) heldMs.push_back(workMs(result.cost));
+      if (i >= kUncounted) heldMs.push_back(workMs(result.cost));
     }
   };
-  drawClear();
-  drawHeld(kSettles);
-  clearMs.clear(), heldMs.clear();
-  for (int turn = 0; turn < kTurns; ++turn) {
-    drawClear();
-    drawHeld(kUncounted + kTurn);
-  }
+  if (hold_.model().images() == 0)
+    for (int i = 0; i < kLearningTurns; ++i)
+      turn(0.5 + 0.5 * std::abs(i - kLearningTurns / 2) / (kLearningTurns / 2));
+  for (int i = 0; i < kSettlingTurns; ++i) turn(1);
+  const std::ptrdiff_t compared = kTurns * kTurn;
+  for (int i = 0; i < kTurns; ++i) turn(1);
+  clearMs.erase(clearMs.begin(), clearMs.end() - compared);
+  heldMs.erase(heldMs.begin(), heldMs.end() - compared);
   held.ofClear = pairedRatio(clearMs, heldMs);
   return held;
 }

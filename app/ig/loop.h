@@ -41,7 +41,8 @@ struct Summary {
                 presetsRefused = 0, terrainReloads = 0, terrainsRefused = 0;
   std::uint64_t damagedPlaces = 0;  ///< of the terrain, that were read for an image
   std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, overBudget = 0;
-  double firstFrameTime = 0;  ///< link::now() when the first image was finished; 0: none
+  std::array<std::uint64_t, kHoldReasons> held{};  ///< images, by what the arbiter of the budget did
+  double firstFrameTime = 0;                       ///< link::now() when the first image was finished; 0: none
   double medianFrameMs = 0, p99FrameMs = 0;
   std::array<Distribution, kCostStages.size()> stages;  ///< milliseconds, in the order of kCostStages
   std::optional<FrameRequest> lastRequest;

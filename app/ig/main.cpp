@@ -122,7 +122,8 @@ int runWith(const Options& options) {
   Session session(preset->parameters);
   session.setGround(ground);
   session.setLoadIndex(scene::loadIndexOf(ground));
-  if (preset->parameters->hold.enabled) report(recallCostModel(session.hold().model(), gl->renderer));
+  // A watched preset may ask for the arbiter later.
+  report(recallCostModel(session.hold().model(), machineName(gl->renderer)));
   session.head() = std::move(head).value();
   session.keepRows(true);
   Damage damage(ground, renderer);
@@ -140,7 +141,7 @@ int runWith(const Options& options) {
   if (options.listen || options.realtime) warmUp(run, *ground);
   ground.reset();  // it is closed when another one takes its place
   Summary summary = drawFrames(run);
-  if (session.parameters()->hold.enabled) report(rememberCostModel(session.hold().model(), gl->renderer));
+  report(rememberCostModel(session.hold().model(), machineName(gl->renderer)));
 
   bool written = true;
   if (trace) written &= accepted(trace->finish());

@@ -25,6 +25,20 @@ nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
+std::uint64_t heldAs(const Summary& s, HoldReason reason) {
+  return s.held[static_cast<std::size_t>(reason)];
+}
+
+/// What the arbiter could not do, and how often it acted; nothing if it was off.
+std::string heldText(const Summary& s) {
+  if (heldAs(s, HoldReason::off) == s.frames) return {};
+  std::string text = "; budget held: lowered in " + std::to_string(heldAs(s, HoldReason::lowered)) +
+                     " frames, out of reach in " + std::to_string(heldAs(s, HoldReason::out_of_reach));
+  if (const std::uint64_t unknown = heldAs(s, HoldReason::no_budget); unknown > 0)
+    text += ", no budget in " + std::to_string(unknown);
+  return text;
+}
+
 }  // namespace
 
 std::string summaryLine(const Summary& s, const Feed& feed) {
@@ -47,7 +61,7 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
             " frames; overtaken packets too: " + milliseconds(s.everyP99Ms) + ")";
   if (s.damagedPlaces > 0) text += "; terrain damaged in " + std::to_string(s.damagedPlaces) + " places";
   return text + "; frame median " + milliseconds(s.medianFrameMs) + ", p99 " + milliseconds(s.p99FrameMs) +
-         ", " + std::to_string(s.overBudget) + " over budget";
+         ", " + std::to_string(s.overBudget) + " over budget" + heldText(s);
 }
 
 std::string summaryJson(const Summary& s, const Feed& feed, const Options& options,
@@ -60,6 +74,7 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["depth_maps_drawn"] = s.depthMapsDrawn;
   json["horizons_built"] = s.horizonsBuilt;
   json["over_budget"] = s.overBudget;
+  for (std::size_t i = 0; i < kHoldReasons; ++i) json["hold"][toText(static_cast<HoldReason>(i))] = s.held[i];
   json["preset_reloads"] = s.presetReloads;
   json["terrain_reloads"] = s.terrainReloads;
   json["terrains_refused"] = s.terrainsRefused;

@@ -2,6 +2,12 @@
 
 namespace trimtab {
 
+FadingPrecipitation fallsNow(const FrameRequest& request) {
+  if (request.fading && request.precipitationForm == PrecipitationForm::bounded) return *request.fading;
+  const WeatherDecision& weather = request.decision.weather;
+  return {weather.precipitation, weather.density, weather.density};
+}
+
 void setAllowedError(FrameRequest& request, double errorPx) {
   const double before = request.lod.screenSpaceError.value();
   request.lod.screenSpaceError = Pixels{errorPx};

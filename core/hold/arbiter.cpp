@@ -18,8 +18,9 @@ constexpr std::size_t kMostScales = 17, kMostParticles = 9;
 constexpr double kMovingReserve = 0.06, kRestingReserve = 0.03;
 /// Head-room must win more than this part of the loss: less is not worth a change.
 constexpr double kWorthwhile = 0.1;
-/// A setting with another allowed error exchanges levels, so its loss counts for so many times as much, and
-/// head-room must win more than a fifth by it.
+/// While the eye moves, the allowed error moves by half octaves, and a setting with another one exchanges
+/// levels, so its loss counts for so many times as much, and head-room must win more than a fifth by it.
+constexpr std::size_t kMovingPlaces = kPlacesPerOctave / 2;
 constexpr double kExchange = 1.25;
 constexpr std::size_t kNoPlace = kErrorPlaces + 1;
 /// While the eye moves, the allowed error returns only after head-room for so long, which is longer than a
@@ -48,8 +49,6 @@ struct Settings {
 struct Errors {
   std::array<double, kErrorPlaces + 1> value{}, loss{}, triangles{};
   std::size_t first = 1, size = 1;
-  /// Returns the place that follows one.
-  std::size_t next(std::size_t place) const { return place == 0 ? first : place + 1; }
 };
 
 struct Choice {
@@ -142,12 +141,15 @@ class Search {
   double timeAt(const HoldSteps& s) const { return predictAt(s).total(); }
   StageTimes predictAt(const HoldSteps& s) const { return predict(given_.cost, loadAt(s)); }
   /// Returns the time with `caution` of the bands by which it is less certain than at the steps before, but
-  /// no more than it can be.
-  double timeForSure(const HoldSteps& s) const {
+  /// no more than it can be. Where that is above the limit, something above the limit.
+  double timeForSure(const HoldSteps& s, double limitMs) const {
     const FrameLoad load = loadAt(s);
+    const double ms = predict(given_.cost, load).total();
+    const double most = msBefore_ * mostTimesAsLong(loadBefore_, load);
+    if (std::min(ms, most) > limitMs) return std::min(ms, most);  // whatever the band
     const double band = coefficientBandMs(given_.cost, load);
     const double late = caution_ * std::sqrt(std::max(band * band - bandBefore_ * bandBefore_, 0.0));
-    return std::min(timeAt(s) + late, msBefore_ * mostTimesAsLong(loadBefore_, load));
+    return std::min(ms + late, most);
   }
 
   /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do, the one that
@@ -158,7 +160,7 @@ class Search {
   }
   /// Returns the same of the settings that fit for sure and are worth a change from a loss of `lost`.
   HoldSteps bestForSure(double limitMs, double lost) const {
-    return best(limitMs, lost, [this](const HoldSteps& s) { return timeForSure(s); });
+    return best(limitMs, lost, [=, this](const HoldSteps& s) { return timeForSure(s, limitMs); });
   }
 
  private:
@@ -172,7 +174,7 @@ class Search {
     double bestLoss = 0, bestMs = 0, quickestMs = 0;
     bool found = false, any = false;
     forEach([&](const HoldSteps& s) {
-      const bool exchanges = s.error != kept_;
+      const bool exchanges = given_.moves && s.error != kept_;
       const double loss = (exchanges ? kExchange : 1) * lossAt(choice_, s);
       if (loss >= (exchanges ? 1 : 1 - kWorthwhile) * lost || (found && loss > bestLoss)) return;
       const double ms = time(s);
@@ -182,11 +184,15 @@ class Search {
     });
     return found ? best : quickest;
   }
+  bool isOffered(std::size_t place) const {
+    if (place == 0 || place == kept_) return true;
+    return place >= choice_.error.first && (!given_.moves || (place - 1) % kMovingPlaces == 0);
+  }
   template <class Visit>
   void forEach(const Visit& visit) const {
-    const Errors& e = choice_.error;
     HoldSteps s;
-    for (std::size_t error = 0; error < e.size; error = e.next(error)) {
+    for (std::size_t error = 0; error < choice_.error.size; ++error) {
+      if (!isOffered(error)) continue;
       s.error = static_cast<std::uint8_t>(error);
       for (s.renderScale = 0; s.renderScale < choice_.scale.size; ++s.renderScale)
         for (s.particles = 0; s.particles < choice_.particles.size; ++s.particles)
@@ -332,7 +338,7 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     memory.restoredMs = kInfinity;
   } else {
     const HoldSteps wanted = search.bestForSure(aimMs, lossAt(choice, before));
-    const bool room = wanted != before && search.timeForSure(wanted) <= aimMs;
+    const bool room = wanted != before && search.timeForSure(wanted, aimMs) <= aimMs;
     memory.calmMs = room ? memory.calmMs + ms : 0;
     const bool ready = meshesReady(given, before.error, room ? wanted.error : before.error, passedMs, memory);
     d.reason = HoldReason::held;
@@ -340,7 +346,7 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     if (room && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
       const bool stays = !given.moves || ample || memory.calmMs >= kMovingCalmMs;
       const HoldSteps nearer = raised(before, wanted, ready && stays);
-      if (nearer != before && search.timeForSure(nearer) <= d.limitMs)
+      if (nearer != before && search.timeForSure(nearer, d.limitMs) <= d.limitMs)
         now = nearer, d.reason = HoldReason::restored, memory.restoredMs = 0;
     }
   }

@@ -43,8 +43,12 @@ double varianceOf(const std::array<double, Kept>& kept, const std::array<double,
   return std::max(variance, 0.0);
 }
 
+/// Reports whether a timer's value can be a time.
+bool isTime(double ms) {
+  return std::isfinite(ms) && ms >= 0;
+}
 double orZero(double ms) {
-  return std::isnan(ms) ? 0 : ms;
+  return isTime(ms) ? ms : 0;
 }
 
 }  // namespace
@@ -95,7 +99,7 @@ void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
   const double work = workMs(cost);
   if (!std::isfinite(work) || !(work > 0)) return;
   const bool falls = load.particles > 0;
-  if ((falls && std::isnan(cost.weather)) || (load.blurs && std::isnan(cost.blur))) return;
+  if ((falls && !isTime(cost.weather)) || (load.blurs && !isTime(cost.blur))) return;
   const StageTimes took = stagesOf(cost);
   if (!(took.ground > 0)) return;
 

@@ -5,7 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "trimtab/preset/file_io.h"
@@ -36,7 +38,22 @@ void forEachNumber(State& state, const Visit& visit) {
   visit(state.band);
 }
 
+std::string processorName() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) {
+      const std::size_t colon = line.find(": ");
+      if (colon != std::string::npos) return line.substr(colon + 2);
+    }
+  return "unknown processor";
+}
+
 }  // namespace
+
+std::string machineName(const std::string& glRenderer) {
+  return processorName() + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores; " +
+         glRenderer;
+}
 
 Result<Done> writeCostModel(const std::filesystem::path& file, const std::string& machine,
                             const CostModel& model) {
@@ -99,7 +116,7 @@ Findings rememberCostModel(const CostModel& model, const std::string& machine) {
 }
 
 std::filesystem::path costModelFile(const std::string& machine) {
-  constexpr std::size_t kLongest = 100;
+  constexpr std::size_t kLongest = 200;
   std::string name = machine.substr(0, kLongest);
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '-';

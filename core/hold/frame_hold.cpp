@@ -86,7 +86,8 @@ HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye
   g.meshesLeft = static_cast<double>(meshesLeft_);
   const MotionBlur& blur = request.decision.motion.blur;
   g.asked = {request.lod.screenSpaceError.value(), request.renderScale, request.particleShare, 1};
-  g.particles = request.decision.weather.density * request.particleShare;
+  const FadingPrecipitation falls = fallsNow(request);
+  if (falls.kind != Precipitation::none) g.particles = falls.amount * request.particleShare;
   g.blurs = blur.strength > 0;
   g.imageMpx = 1e-6 * request.view.widthPx * request.view.heightPx;
   if (!index_) {

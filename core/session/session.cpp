@@ -351,12 +351,12 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   request.staticLod = parameters_->staticLod;
   request.terrain = parameters_->terrain;
   applyLevers(request.decision.policy, request);
-  holdBudget(request);
   request.rain = parameters_->rainLook;
   request.snow = parameters_->snowLook;
   request.precipitationForm = parameters_->weather.precipitationForm;
   air_.fade.advance(eye.time, decision_.weather);
   request.fading = air_.fade.fading();
+  holdBudget(request);
   drawnDark_ = darkAt(eye.time);
   if (parameters_->symbology.enabled)
     request.symbology =

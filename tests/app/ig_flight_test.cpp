@@ -70,6 +70,22 @@ class IgFlight : public ::testing::Test {
   test::ScratchDir dir_;
 };
 
+TEST_F(IgFlight, saysWhatHoldingTheBudgetCouldNotDo) {
+  TuningParameters p = *defaultParameters();
+  p.hold.enabled = true;
+  p.measure.budget = Milliseconds{0.1};
+  write(*validate(p), test::weavingFlight(60));
+  IgProcess ig = fly(dir_ / "flight.csv", dir_ / "trace.csv");
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  const nlohmann::json held = ig.summary()["hold"];
+  EXPECT_EQ(held["off"], 0);
+  EXPECT_GT(held["out_of_reach"], 30) << "no image takes a tenth of a millisecond";
+  std::size_t outOfReach = 0;
+  for (const TraceRow& row : rowsOf(dir_ / "trace.csv"))
+    outOfReach += row.hold && row.hold->decision.reason == HoldReason::out_of_reach;
+  EXPECT_EQ(held["out_of_reach"], outOfReach);
+}
+
 TEST_F(IgFlight, drawsOneFrameAndWritesOneRowForEachRowOfTheFlight) {
   const Flight flight = test::weavingFlight(120);
   write(defaultParameters(), flight);
@@ -81,6 +97,7 @@ TEST_F(IgFlight, drawsOneFrameAndWritesOneRowForEachRowOfTheFlight) {
   EXPECT_GT(summary["decision_changes"], 3);
   EXPECT_GT(summary["horizons_built"], 0);
   EXPECT_EQ(summary["depth_maps_drawn"], 0) << "the horizon needs none";
+  EXPECT_EQ(summary["hold"]["off"], 120);
 
   const std::vector<TraceRow> rows = rowsOf(dir_ / "trace.csv");
   ASSERT_EQ(rows.size(), flight.states.size());

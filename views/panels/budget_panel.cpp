@@ -19,9 +19,19 @@ namespace trimtab::views {
 namespace {
 
 constexpr const char* kBudgetKeys[] = {
-    "hold.enabled",          "measure.budget_ms",         "hold.margin",
-    "hold.error_maximum_px", "hold.render_scale_minimum", "hold.particles_minimum",
-    "hold.calm_ms",          "hold.caution",
+    "hold.enabled",
+    "measure.budget_ms",
+    "hold.margin",
+    "hold.error_maximum_px",
+    "hold.render_scale_minimum",
+    "hold.particles_minimum",
+    "hold.blur_minimum",
+    "hold.calm_ms",
+    "hold.caution",
+    "hold.loss_error",
+    "hold.loss_render_scale",
+    "hold.loss_particles",
+    "hold.loss_blur",
 };
 
 QString percent(double share) {

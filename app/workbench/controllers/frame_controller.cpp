@@ -89,7 +89,8 @@ FrameController::FrameController(const Workplace& workplace, const TerrainContro
 
 FrameController::~FrameController() {
   if (!recalled_) return;
-  const Findings found = rememberCostModel(at_.feed.session().hold().model(), at_.viewport.gl().renderer);
+  const Findings found =
+      rememberCostModel(at_.feed.session().hold().model(), machineName(at_.viewport.gl().renderer));
   // There is no window any more that could show it.
   if (!found.empty())
     std::fprintf(stderr, "trimtab: what images cost is not remembered: %s\n", toString(found).c_str());
@@ -172,7 +173,8 @@ void FrameController::onPainted() {
     fps_ = kNan;
   CostModel& model = at_.feed.session().hold().model();
   if (!std::exchange(recalled_, true))
-    if (const Findings found = recallCostModel(model, at_.viewport.gl().renderer); !found.empty())
+    if (const Findings found = recallCostModel(model, machineName(at_.viewport.gl().renderer));
+        !found.empty())
       at_.messages.add(tr("The costs of an image are learned anew"), found);
   lastCost_ = observer_.frozen() ? result->cost : at_.feed.session().finished(*result, link::now());
   levels_ = levelsDrawn(*result, *terrain_.database());

@@ -135,12 +135,13 @@ struct Search {
   const Pyramid pyramid;
   const Mat3 toWorld;
   const Vec3 eyeInAir;
-  const double pixelsPerMetre;  ///< at 1 m
+  const double pixelsPerMetre;  ///< of the image, at 1 m
   const double extinction;
   const double opacity;
-  const double haze;    ///< of the bundles' opacity
-  const double amount;  ///< of the shells' counts
-  const double share;   ///< of these, that is drawn; a wide view lowers it too
+  const double haze;      ///< of the bundles' opacity
+  const double amount;    ///< of the shells' counts
+  const double share;     ///< of these, that is drawn; a wide view lowers it too
+  const double stronger;  ///< so many times as strong is each that is drawn, for those that are left out
   const double streakM;
   const double time;
   std::vector<NearParticle>& found;
@@ -174,7 +175,9 @@ double Search::room(const Shell& shell) const {
   const double perMetre = pixelsPerMetre / (0.75 * shell.farM);
   const double width = std::max(2 * radiusOf(shell) * perMetre, 2.0);
   const double covered = amount * shell.count * width * (width + lengthOf(shell) * perMetre);
-  return std::min(1.0, kind.mostCovered * view.shape.widthPx * view.shape.heightPx / covered);
+  const double scene = double{1} * view.shape.widthPx * view.shape.heightPx;
+  const double image = scene / (falling.renderScale * falling.renderScale);
+  return std::min(1.0, kind.mostCovered * image / covered);
 }
 
 void Search::searchShell(const Shell& shell, std::uint64_t number) {
@@ -245,7 +248,7 @@ void Search::searchCell(const Shell& shell, double far, Vec3 corner, double side
         (bundles ? shell.bundle.opacity * haze : opacity) * std::min(1.0, count - static_cast<double>(i)) *
         smoothStep(shell.nearM, 1.4 * shell.nearM, distance) * (1 - smoothStep(0.75 * far, far, distance)) *
         smoothStep(0.75, 1.5, widthPx) * std::exp(-extinction * distance);
-    if (strength > kFaintest) found.push_back({p, radius, lengthM, strength});
+    if (strength > kFaintest) found.push_back({p, radius, lengthM, std::min(stronger * strength, 1.0)});
   }
 }
 
@@ -279,12 +282,13 @@ void findNearParticles(const PrecipitationView& falling, const SceneView& view,
                 .pyramid = pyramid,
                 .toWorld = transposed(view.eye.axes),
                 .eyeInAir = finite(view.eye.position - falling.airDrift),
-                .pixelsPerMetre = pixelsPerRadian(view.shape),
+                .pixelsPerMetre = pixelsPerRadian(view.shape) / falling.renderScale,
                 .extinction = extinctionAtEye(view),
                 .opacity = kind.opacity * (kind.smeared + (1 - kind.smeared) * still),
                 .haze = std::max(amount - 0.2, 0.0) / 0.8,
                 .amount = amount,
                 .share = share * std::min(1.0, kReferenceArea / pyramid.area()),
+                .stronger = 1 / share,
                 .streakM = length(motion.streak),
                 .time = std::isfinite(falling.time) ? falling.time : 0,
                 .found = particles};

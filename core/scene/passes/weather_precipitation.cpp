@@ -55,10 +55,8 @@ bool isFinite(Vec3 v) {
 }  // namespace
 
 std::optional<PrecipitationView> precipitationView(const FrameRequest& request, const LocalFrame& frame) {
-  const WeatherDecision& weather = request.decision.weather;
   const bool bounded = request.precipitationForm == PrecipitationForm::bounded;
-  FadingPrecipitation falls{weather.precipitation, weather.density, weather.density};
-  if (bounded && request.fading) falls = *request.fading;
+  const FadingPrecipitation falls = fallsNow(request);
   if (falls.kind == Precipitation::none ||
       !(falls.density > 0 && falls.amount > 0 && request.particleShare > 0))
     return {};
@@ -73,6 +71,7 @@ std::optional<PrecipitationView> precipitationView(const FrameRequest& request, 
       .form = request.precipitationForm,
       .share = bounded ? std::min(request.particleShare, 1.0)
                        : std::max(std::round(request.particleShare * kShareSteps), 1.0) / kShareSteps,
+      .renderScale = request.renderScale > 0 ? std::min(request.renderScale, 1.0) : 1,
       .time = request.time,
       .velocity = frame.ecefToLocal() * (toEarth * (eye - eastNorthUp(request.wind))),
       .airDrift = frame.ecefToLocal() * request.airDrift,

@@ -22,7 +22,10 @@ struct PrecipitationView {
   double amount = 0;   ///< 0..1: as the density, but for the bounded form while it fades
   PrecipitationForm form = PrecipitationForm::bounded;
   double share = 1;  ///< of the particles of that intensity, those that are drawn, 0..1
-  double time = 0;   ///< seconds; the place of each drop depends on it alone
+  /// Of the view over that of the image, 0..1. What is too small to be seen is so in the image's pixels, or
+  /// rain would vanish from a scene that is drawn smaller.
+  double renderScale = 1;
+  double time = 0;  ///< seconds; the place of each drop depends on it alone
   Vec3 velocity;  ///< of the eye through the air, metres per second in the local frame; drops streak along it
   Vec3 airDrift;  ///< how far the wind has carried the air, metres in the local frame
   PrecipitationLook look{};

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support.h"
+#include "trimtab/preset/preset.h"
 
 namespace trimtab {
 namespace {
@@ -88,8 +89,9 @@ TEST(LeverageCommand, printsOneDocumentAndWritesTableAndPicture) {
   ASSERT_EQ(test::run(cli + " terrain bake " + tif + " -o " + database).exitCode, 0);
   const std::string command =
       cli + " leverage --terrain " + database + " --size 64x48 --repeats 1 --frames 2";
-  const test::Ran ran = test::run(command + " --json -o " + out + " --flight " +
-                                  (test::sourceDir() / "resources/flights/yecheon-circuit.csv").string());
+  const test::Ran ran =
+      test::run(command + " --json --losses " + (dir / "losses.json").string() + " -o " + out + " --flight " +
+                (test::sourceDir() / "resources/flights/yecheon-circuit.csv").string());
   ASSERT_EQ(ran.exitCode, 0) << ran.err;
   const json document = json::parse(ran.out);
   EXPECT_EQ(document.at("leverage").size(), 7u);
@@ -100,6 +102,13 @@ TEST(LeverageCommand, printsOneDocumentAndWritesTableAndPicture) {
   EXPECT_EQ(json::parse(test::readFile(dir / "out" / "leverage.json")), document);
   for (const char* name : {"leverage.csv", "leverage.svg"})
     EXPECT_GT(test::readFile(dir / "out" / name).size(), 100u) << name;
+  const auto losses = loadPreset((dir / "losses.json").string());
+  ASSERT_TRUE(losses) << toString(losses.findings());
+  for (const json& row : document.at("leverage"))
+    if (row.at("lever") == "render_scale") {
+      EXPECT_NEAR(losses->parameters.hold.lossRenderScale.value(), row.at("flip_lost").get<double>(), 1e-4);
+    }
+  EXPECT_EQ(losses->parameters.hold.lossBlur.value(), 0) << "less blur is nearer to the sharp image";
   EXPECT_THAT(ran.err, HasSubstr(" % Render scale"));
   EXPECT_EQ(test::run(command).exitCode, 2) << "no flight is wrong usage";
   const test::Ran refused = test::run(command + " --flight /none.csv");

@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "app/experiment/hold_run.h"
 #include "app/experiment/weather_view.h"
 #include "tests/support.h"
 #include "trimtab/host/flight.h"
+#include "trimtab/host/head_log.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/scene/data_extent.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/synthetic/sample.h"
@@ -105,6 +109,10 @@ TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked)
   EXPECT_EQ(rows.number(difference, "before"), 0);
   EXPECT_GT(rows.number(difference, "with_restoration"), 0) << "the price is told";
   EXPECT_GT(rows.number(difference, "hold"), 0) << "0.6 of the time is not held for nothing";
+  const std::size_t blurred = rowOf("images_blurred");
+  EXPECT_EQ(rows.number(blurred, "before"), 0);
+  EXPECT_GT(rows.number(blurred, "with_restoration"), 0);
+  EXPECT_LT(rows.number(blurred, "hold"), rows.number(blurred, "with_restoration")) << "the blur is left out";
 }
 
 TEST_F(Experiment, aDecisionForEachNodeTestsFewerNodesAndChangesNoPixel) {
@@ -263,6 +271,8 @@ TEST_F(Experiment, holdFliesTheSweepInFourModesAndPredictsInOne) {
   }
   EXPECT_LT(rows.number(0, "flip_mean"), 0.05) << "off allows two pixels: anything else is another picture";
   EXPECT_EQ(rows.number(0, "lod_changes"), 0);
+  EXPECT_LE(rows.number(3, "lod_changes_in_1s"), rows.number(3, "lod_changes"));
+  EXPECT_EQ(rows.number(3, "p99_over_hold"), 1);
   EXPECT_EQ(rows.number(0, "settled_ms"), 0) << "nothing was lowered";
   EXPECT_LE(rows.number(3, "settled_ms"), 1000) << "the sweep rests for a second";
   // Another budget, and only what was asked for.
@@ -280,6 +290,69 @@ TEST_F(Experiment, holdFliesTheSweepInFourModesAndPredictsInOne) {
   ASSERT_EQ(report->plots.size(), 3u);
   EXPECT_THAT(report->notes, Contains(HasSubstr("only the sweep")));
   EXPECT_THAT(report->notes, Contains(HasSubstr("lost at 16 px")));
+}
+
+/// Recorded flights, with the head and the weather that each strain has, and each fixed setting beside hold.
+TEST_F(Experiment, aBudgetIsHeldInFlightsBesideFixedSettings) {
+  experiment::Setup s = setup();
+  s.widthPx = 64;
+  s.heightPx = 36;
+  s.hold.flightS = 1.2;  // of which 60 images warm up
+  s.hold.budgetMs = 2;
+  Flight flight;
+  flight.name = "straight";
+  for (int i = 0; i <= 40; ++i) {
+    AircraftState state;
+    state.time = i * 0.1;
+    state.position = scene::placeIn(terrain_->info(), 0.4 + 0.004 * i, 0.4);
+    state.position.height = Metres{1500};
+    flight.states.push_back(state);
+  }
+  s.flight = std::move(flight);
+  s.hold.strain = "head log";
+  s.hold.fixedSettings = true;
+  const auto head = runHold(s);
+  ASSERT_TRUE(head) << toString(head.findings());
+  ASSERT_EQ(head->measured.rows.size(), 4u + 12);
+  for (std::size_t row = 0; row < 16; ++row) {
+    EXPECT_GT(head->measured.number(row, "p99_over_hold"), 0) << row;
+    EXPECT_GE(head->measured.number(row, "flip_smeared"), 0) << row;
+  }
+  EXPECT_THAT(head->notes, Contains(HasSubstr("fixed setting")));
+  s.hold.strain = "weather";
+  s.hold.fixedSettings = false;
+  const auto weather = runHold(s);
+  ASSERT_TRUE(weather) << toString(weather.findings());
+  ASSERT_EQ(weather->measured.rows.size(), 4u);
+  EXPECT_EQ(weather->measured.text(0, "strain"), "flight through weather");
+}
+
+/// The head of a log looks around in the weather strain too.
+TEST_F(Experiment, theWeatherStrainHasHeadAndWeather) {
+  experiment::Setup s = setup();
+  Flight flight;
+  for (int i = 0; i <= 40; ++i) {
+    AircraftState state;
+    state.time = i * 0.1;
+    state.position = scene::placeIn(terrain_->info(), 0.5, 0.5);
+    flight.states.push_back(state);
+  }
+  s.flight = std::move(flight);
+  const Result<HeadLog> head = parseSweep("sweep:120/0.5/0.1");
+  ASSERT_TRUE(head);
+  const auto strain = weatherStrain(s, *head, 3);
+  ASSERT_TRUE(strain);
+  std::set<int> falls;
+  double least = 0, most = 0;
+  for (const AircraftState& state : strain->states) {
+    falls.insert(static_cast<int>(state.weather->precipitation));
+    if (state.head) {
+      least = std::min(least, state.head->heading.value());
+      most = std::max(most, state.head->heading.value());
+    }
+  }
+  EXPECT_EQ(falls.size(), 3u);
+  EXPECT_GT(most - least, 30);
 }
 
 }  // namespace

@@ -315,6 +315,15 @@ TEST(CostModel, timersThatLieTeachNothing) {
     if (!(none.triangles > 0)) continue;
     model.observe(none, machine.cost(load));
   }
+  // So may the timer of a stage, or that of the GPU, once in a while.
+  for (double FrameCost::*stage : {&FrameCost::weather, &FrameCost::blur, &FrameCost::decide,
+                                   &FrameCost::symbology, &FrameCost::occlusion, &FrameCost::gpu})
+    for (const double lie : {-3.0, 1e9, kNan, kInfinity, -kInfinity}) {
+      FrameCost cost = machine.cost(load);
+      cost.*stage = lie;
+      model.observe(load, cost);
+      for (int i = 0; i < 8; ++i) model.observe(load, machine.cost(load));
+    }
   EXPECT_TRUE(std::isfinite(predictedMs(model, load)));
   EXPECT_NEAR(predictedMs(model, load), before, 0.2 * before);
   FrameCost unmeasured = machine.cost(load);

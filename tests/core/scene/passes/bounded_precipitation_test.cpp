@@ -104,7 +104,7 @@ TEST_F(BoundedPrecipitation, isHiddenBehindWhatIsNearer) {
   }
 }
 
-TEST_F(BoundedPrecipitation, isSeenLessWithLessDensityAndASmallerShare) {
+TEST_F(BoundedPrecipitation, isSeenLessWithLessDensity) {
   for (const Precipitation kind : kKinds) {
     double before = 0;
     for (const double density : {0.1, 0.25, 0.5, 1.0}) {
@@ -112,16 +112,32 @@ TEST_F(BoundedPrecipitation, isSeenLessWithLessDensityAndASmallerShare) {
       EXPECT_GT(now, before * 1.2) << density;
       before = now;
     }
-    auto r = falling(kind, 1);
-    r.particleShare = 0.5;
-    const double half = seen(r);
-    EXPECT_LT(half, before * 0.85);
-    EXPECT_GT(half, before * 0.2);
-    r.particleShare = 0;
-    EXPECT_EQ(seen(r), 0);
-    r.particleShare = 1;
-    EXPECT_EQ(seen(r), before);
   }
+}
+
+/// What a lever takes off the cost of rain must not look like less rain. Flakes are nearly opaque, so fewer
+/// of them cannot be made up for.
+TEST_F(BoundedPrecipitation, looksAboutAsDenseAtAnyShareAndRenderScale) {
+  for (const Precipitation kind : kKinds)
+    for (const double density : {0.25, 1.0}) {
+      auto r = falling(kind, density);
+      const double whole = seen(r);
+      for (const double share : {0.75, 0.5, 0.25}) {
+        r.particleShare = share;
+        const double least = kind == Precipitation::rain ? 0.6 : 0.35 + 0.6 * share;
+        EXPECT_GT(seen(r), least * whole) << share;
+        EXPECT_LT(seen(r), 1.3 * whole) << share;
+      }
+      r.particleShare = 0;
+      EXPECT_EQ(seen(r), 0);
+      r.particleShare = 1;
+      for (const double scale : {0.7, 0.5}) {
+        r.renderScale = scale;
+        EXPECT_NEAR(seen(r) / whole, 1, 0.45) << scale;
+      }
+      r.renderScale = 1;
+      EXPECT_EQ(seen(r), whole);
+    }
 }
 
 /// The published effect covers nearly every pixel with flakes, so that heavy snow is a noise without a view.

@@ -95,6 +95,9 @@ inline double farCutM(const FrameRequest& request) {
   return request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited;
 }
 
+/// Returns what falls in this image: what the decision says, or what fades if the form that draws it fades.
+FadingPrecipitation fallsNow(const FrameRequest& request);
+
 /// Sets the allowed screen-space error of levels and patches, pixels, and scales that of static trees with
 /// it.
 void setAllowedError(FrameRequest& request, double errorPx);

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <string_view>
 
 /// What the arbiter of the frame's budget decided for one image. core/hold decides it, and a session puts it
@@ -42,6 +42,8 @@ enum class HoldReason : std::uint8_t {
   out_of_reach   ///< as low as the limits allow, and the prediction still does not fit
 };
 
+inline constexpr std::size_t kHoldReasons = 8;
+
 struct HoldDecision {
   HoldReason reason = HoldReason::off;
   HeldLevers asked, held;      ///< by preset and policy; by the arbiter
@@ -55,10 +57,10 @@ struct HoldDecision {
 /// Returns the name that traces, the command line and the workbench show, and an empty one for a value
 /// outside the enumeration.
 constexpr std::string_view toText(HoldReason reason) {
-  constexpr std::string_view kNames[] = {"off",     "no_budget", "cost_unknown", "fits",
-                                         "lowered", "held",      "restored",     "out_of_reach"};
+  constexpr std::array<std::string_view, kHoldReasons> kNames{
+      "off", "no_budget", "cost_unknown", "fits", "lowered", "held", "restored", "out_of_reach"};
   const auto at = static_cast<std::size_t>(reason);
-  return at < std::size(kNames) ? kNames[at] : std::string_view{};
+  return at < kNames.size() ? kNames[at] : std::string_view{};
 }
 
 }  // namespace trimtab

@@ -10,13 +10,13 @@
 
 /// Keeps the predicted time of each image within the budget.
 ///
-/// Each image, the arbiter looks at every setting of the levers that it may move, some two thousand, and
-/// takes the one that loses least among those that fit. A setting with another allowed error than the image
-/// before counts as losing a quarter more, because it exchanges levels of detail. Prediction comes first and
-/// measurement only corrects the model, so there is nothing to oscillate: Funkhouser and Sequin, "Adaptive
-/// Display Algorithm for Interactive Frame Rates During Visualization of Complex Virtual Environments",
-/// SIGGRAPH 1993. Their benefit of an object is here the loss of the image, in the mean FLIP that leverage
-/// measures.
+/// Each image, the arbiter looks at every setting of the levers that it may move, some two thousand in motion
+/// and sixteen thousand at rest, and takes the one that loses least among those that fit. While the eye
+/// moves, a setting with another allowed error than the image before counts as losing a quarter more, because
+/// it exchanges levels of detail. Prediction comes first and measurement only corrects the model, so there is
+/// nothing to oscillate: Funkhouser and Sequin, "Adaptive Display Algorithm for Interactive Frame Rates
+/// During Visualization of Complex Virtual Environments", SIGGRAPH 1993. Their benefit of an object is here
+/// the loss of the image, in the mean FLIP that leverage measures.
 ///
 /// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
 /// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
@@ -26,10 +26,11 @@
 /// restoration that is taken back within four seconds makes the next one wait twice as long, up to 32 times,
 /// until one has lasted for as long; while the eye moves that halves every four seconds.
 ///
-/// The allowed error moves by half octaves, so that a glance changes levels once or twice; the other levers
-/// take what that gives up too much. Restoring must win more than a tenth of the loss, and more than a fifth
-/// if it exchanges levels. It goes only where the model is sure that it fits: a setting unlike those that
-/// were drawn lately counts as longer by hold.caution of the bands that this adds (coefficientBandMs).
+/// While the eye moves, the allowed error moves by half octaves, so that a glance changes levels once or
+/// twice; the other levers take what that gives up too much. At rest it moves by sixteenths. Restoring must
+/// win more than a tenth of the loss, and in motion more than a fifth if it exchanges levels. It goes only
+/// where the model is sure that it fits: a setting unlike those that were drawn lately counts as longer by
+/// hold.caution of the bands that this adds (coefficientBandMs).
 namespace trimtab {
 
 /// Everything that an image's arbitration depends on beside its memory, as plain numbers, so that a trace can
@@ -39,7 +40,7 @@ struct HoldGiven {
   double budgetMs = 0;
   HeldLevers asked;            ///< by preset and policy
   double unseenPx = 0;         ///< errorInMotion() of the error that is asked for: up to it nothing is lost
-  double particles = 0;        ///< density of what falls times asked.particleShare
+  double particles = 0;        ///< amount of what falls (fallsNow) times asked.particleShare
   bool blurs = false;          ///< head motion asks for blur
   bool moves = false;          ///< the eyes of the coming images are elsewhere, or turned
   double imageMpx = 0;         ///< millions of pixels of the image
@@ -51,8 +52,8 @@ struct HoldGiven {
   friend bool operator==(const HoldGiven&, const HoldGiven&) = default;
 };
 
-/// Where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale, half
-/// an octave apart, so that it rests while what is asked for moves below it. The others are steps down from
+/// Where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale
+/// (kFirstErrorPx), so that it rests while what is asked for moves below it. The others are steps down from
 /// what is asked for.
 struct HoldSteps {
   std::uint8_t error = 0, renderScale = 0, particles = 0, blur = 0;

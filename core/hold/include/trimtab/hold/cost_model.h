@@ -15,7 +15,7 @@ struct FrameLoad {
   double triangles = 0;  ///< of the ground, drawn
   double groundMpx = 0;  ///< millions of pixels of the scene that show ground
   double sceneMpx = 0;   ///< millions of pixels of the scene, at its render scale
-  double particles = 0;  ///< density of what falls times the share that is drawn; 0: nothing falls
+  double particles = 0;  ///< amount of what falls times the share that is drawn; 0: nothing falls
   bool blurs = false;
 
   friend bool operator==(const FrameLoad&, const FrameLoad&) = default;

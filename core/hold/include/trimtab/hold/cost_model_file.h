@@ -9,8 +9,12 @@
 /// Keeps what a machine's images cost from one run to the next.
 namespace trimtab {
 
-/// Writes a model with the name of the machine that it was learned on, such as its GL renderer. The file is
-/// the old one or the whole new one, whatever happens on the way.
+/// Returns the name of this machine as it draws: its processor, how many of its cores it has, and the GL
+/// renderer, which of a software rasteriser says neither.
+std::string machineName(const std::string& glRenderer);
+
+/// Writes a model with the name of the machine that it was learned on. The file is the old one or the whole
+/// new one, whatever happens on the way.
 Result<Done> writeCostModel(const std::filesystem::path& file, const std::string& machine,
                             const CostModel& model);
 /// Reads a model. Damage, numbers that no model can have, and a model of another machine are findings that

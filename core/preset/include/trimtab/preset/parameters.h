@@ -232,7 +232,7 @@ struct HoldParameters {
   // The mean FLIP that each lever loses over its usual range, as `trimtab-cli leverage` measures it.
   Ratio lossError{0.026};
   Ratio lossRenderScale{0.022};
-  Ratio lossParticles{0.056};
+  Ratio lossParticles{0.011};
   Ratio lossBlur{0};
   Milliseconds exposure{0};  ///< how long an image is held; 0: no error is hidden by motion
 };
