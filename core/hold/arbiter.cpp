@@ -18,15 +18,17 @@ constexpr std::size_t kMostScales = 17, kMostParticles = 9;
 constexpr double kMovingReserve = 0.06, kRestingReserve = 0.03;
 /// Head-room must win more than this part of the loss: less is not worth a change.
 constexpr double kWorthwhile = 0.1;
-/// While the eye moves, the allowed error moves by half octaves, and a setting with another one exchanges
-/// levels, so its loss counts for so many times as much, and head-room must win more than a fifth by it.
-constexpr std::size_t kMovingPlaces = kPlacesPerOctave / 2;
+/// A setting with another allowed error exchanges levels, so its loss counts for so many times as much, and
+/// head-room must win more than a fifth by it.
 constexpr double kExchange = 1.25;
+/// While the eye moves, the allowed error moves by half octaves.
+constexpr std::size_t kMovingPlaces = kPlacesPerOctave / 2;
 constexpr std::size_t kNoPlace = kErrorPlaces + 1;
 /// While the eye moves, the allowed error returns only after head-room for so long, which is longer than a
-/// glance lasts, because the next view may need what this one does not; or if the image takes less than this
-/// part of the limit, because then too much was given up.
-constexpr double kMovingCalmMs = 1000, kAmple = 0.75;
+/// glance lasts, because the next view may need what this one does not. It is less if the image takes less
+/// than this part of the limit, because then too much was given up; but still so long that a head that looks
+/// around does not exchange levels at each turn.
+constexpr double kMovingCalmMs = 1000, kAmple = 0.75, kAmpleCalmMs = 400;
 /// A restoration that is taken back within so long was too early.
 constexpr double kLastsMs = 4000, kMostPatience = 32;
 /// The allowed error waits no longer for meshes.
@@ -174,7 +176,7 @@ class Search {
     double bestLoss = 0, bestMs = 0, quickestMs = 0;
     bool found = false, any = false;
     forEach([&](const HoldSteps& s) {
-      const bool exchanges = given_.moves && s.error != kept_;
+      const bool exchanges = s.error != kept_;
       const double loss = (exchanges ? kExchange : 1) * lossAt(choice_, s);
       if (loss >= (exchanges ? 1 : 1 - kWorthwhile) * lost || (found && loss > bestLoss)) return;
       const double ms = time(s);
@@ -344,8 +346,9 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     d.reason = HoldReason::held;
     const bool ample = search.timeAt(before) < kAmple * d.limitMs;
     if (room && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
-      const bool stays = !given.moves || ample || memory.calmMs >= kMovingCalmMs;
-      const HoldSteps nearer = raised(before, wanted, ready && stays);
+      const double movingCalmMs = ample ? kAmpleCalmMs : kMovingCalmMs;
+      const bool returns = ready && (!given.moves || memory.calmMs >= movingCalmMs);
+      const HoldSteps nearer = raised(before, wanted, returns);
       if (nearer != before && search.timeForSure(nearer, d.limitMs) <= d.limitMs)
         now = nearer, d.reason = HoldReason::restored, memory.restoredMs = 0;
     }

@@ -201,6 +201,12 @@ TEST_F(BudgetPanelTest, recordsARunAndComparesItWithTheSameFlownAgain) {
   settle();
   EXPECT_EQ(panel.comparisonText(),
             "Recorded: 2 s, median 30 ms, p99 30 ms\nFlown again: 2 s, median 20 ms, p99 20 ms");
+  // The recorded times lie over those of the new flight.
+  const auto recorded = panel.plot().recorded().data();
+  ASSERT_EQ(recorded->size(), 101);
+  EXPECT_NEAR(recorded->constBegin()->key, 9, 1e-9);
+  EXPECT_NEAR((recorded->constEnd() - 1)->key, 11, 1e-9);
+  EXPECT_EQ(recorded->constBegin()->value, 30);
   fly(20, 70, 10);
   settle();
   EXPECT_FALSE(panel.comparisonText().contains("70")) << "the run is over";

@@ -29,6 +29,7 @@ class BudgetPlot : public ClockPlot {
   using Stack = std::array<QCPGraph*, 4>;
   const Stack& predicted() const { return predicted_; }
   const Stack& measured() const { return measured_; }
+  const QCPGraph& recorded() const { return *recorded_; }
   /// The share, percent, by which predictions were too long; they were made three images before.
   const QCPGraph& off() const { return *off_; }
 

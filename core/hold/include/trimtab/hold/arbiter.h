@@ -20,11 +20,11 @@
 ///
 /// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
 /// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
-/// in one step, because each step of it exchanges levels, and while the eye moves only after a second or if
-/// the image takes less than three quarters of the limit, so that a glance does not exchange them twice. It
-/// also waits until the meshes that it needs are built (Renderer::buildAhead), for at most two seconds. A
-/// restoration that is taken back within four seconds makes the next one wait twice as long, up to 32 times,
-/// until one has lasted for as long; while the eye moves that halves every four seconds.
+/// in one step, because each step of it exchanges levels. While the eye moves it returns only after a second,
+/// or after 0.4 s if the image takes less than three quarters of the limit, so that a glance does not exchange
+/// them twice. It also waits until the meshes that it needs are built (Renderer::buildAhead), for at most two
+/// seconds. A restoration that is taken back within four seconds makes the next one wait twice as long, up to
+/// 32 times, until one has lasted for as long; while the eye moves that halves every four seconds.
 ///
 /// While the eye moves, the allowed error moves by half octaves, so that a glance changes levels once or
 /// twice; the other levers take what that gives up too much. At rest it moves by sixteenths. Restoring must
