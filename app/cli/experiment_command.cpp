@@ -71,8 +71,10 @@ void addExperiment(CLI::App& app, int& exitCode) {
           ->check(CLI::Range(1, 1000));
     if (std::string_view(named.name) == "hold") {
       experiment::HoldSetup& hold = arguments->setup.hold;
-      command->add_flag("--fixed", hold.fixedSettings,
-                        "Also fly every fixed setting of the same levers, and name the best");
+      command->add_flag(
+          "--fixed", hold.fixedSettings,
+          "Also fly fixed settings of the same levers in turns with hold, but for those that are far too "
+          "slow, and name the best");
       command
           ->add_option("--budget", hold.budgetMs, "Budget, ms; 0.6 of the median image without it if unset")
           ->check(CLI::PositiveNumber);

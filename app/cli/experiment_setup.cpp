@@ -71,13 +71,9 @@ bool mayWriteFile(const std::string& file) {
   return writable.ok();
 }
 
-bool wrotePreset(const SetupArguments& arguments, const TuningParameters& parameters,
-                 const std::string& file) {
-  Result<Preset> preset = loadPreset(arguments.preset);
-  report(preset.findings());
-  if (!preset) return false;
-  preset->parameters = parameters;
-  const Result<std::string> text = presetText(*preset);
+bool wrotePreset(Preset preset, const TuningParameters& parameters, const std::string& file) {
+  preset.parameters = parameters;
+  const Result<std::string> text = presetText(preset);
   report(text.findings());
   if (!text) return false;
   const auto written = writeAtomically(file, *text);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/experiment/experiment.h"
+#include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {
 
@@ -28,9 +29,8 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments);
 bool mayWriteTo(const std::string& folder);
 /// Sees the same of the folder of a file.
 bool mayWriteFile(const std::string& file);
-/// Writes the setup's preset with other parameters, as differences from its base. Prints what is wrong.
-bool wrotePreset(const SetupArguments& arguments, const TuningParameters& parameters,
-                 const std::string& file);
+/// Writes a preset with other parameters, as differences from its base. Prints what is wrong.
+bool wrotePreset(Preset preset, const TuningParameters& parameters, const std::string& file);
 /// Prints the damage of the terrain that the work met: images of what is not there are no measurement.
 bool isDamaged(const experiment::Setup& setup);
 

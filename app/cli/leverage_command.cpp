@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "experiment_setup.h"
 #include "progress.h"
+#include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {
 namespace {
@@ -21,21 +22,25 @@ struct LeverageOptions {
 int run(const LeverageOptions& arguments) {
   stopWhenAsked();
   if (!mayWriteTo(arguments.output) || !mayWriteFile(arguments.losses)) return kRefused;
+  const auto preset = loadPreset(arguments.setup.preset);
   std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
-  if (!setup) return kRefused;
+  if (!preset || !setup) return kRefused;
   setup->frames = arguments.frames;
   const Result<experiment::Leverage> done = experiment::measureLeverage(*setup);
   report(done.findings());
   if (!done || isDamaged(*setup)) return kRefused;
   std::cout << (arguments.json ? toJson(*done) : toText(toReport(*done)));
+  bool written = true;
   if (!arguments.losses.empty()) {
     TuningParameters tuned = setup->parameters;
     takeLosses(*done, tuned.hold);
-    if (!wrotePreset(arguments.setup, tuned, arguments.losses)) return kRefused;
+    written &= wrotePreset(*preset, tuned, arguments.losses);
   }
-  if (arguments.output.empty()) return kDone;
-  const auto written = writeLeverage(arguments.output, *done);
-  report(written.findings());
+  if (!arguments.output.empty()) {
+    const auto results = writeLeverage(arguments.output, *done);
+    report(results.findings());
+    written &= results.ok();
+  }
   return written ? kDone : kRefused;
 }
 

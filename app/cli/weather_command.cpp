@@ -73,8 +73,9 @@ void printJson(const experiment::CalibratedWeather& calibrated) {
 int calibrate(const WeatherOptions& arguments) {
   stopWhenAsked();
   if (!mayWriteFile(arguments.output)) return kRefused;
+  const auto preset = loadPreset(arguments.setup.preset);
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
-  if (!setup) return kRefused;
+  if (!preset || !setup) return kRefused;
   experiment::WeatherCalibration wanted{stepsOf(arguments.steps), {}};
   if (arguments.vertices > 0) wanted.vertices = arguments.vertices;
   const auto calibrated = experiment::calibrateWeather(*setup, wanted);
@@ -89,7 +90,7 @@ int calibrate(const WeatherOptions& arguments) {
   TuningParameters tuned = setup->parameters;
   for (const StepCalibration& step : calibrated->steps)
     if (step.outcome != CalibrationOutcome::not_a_number) apply(step, tuned);
-  return wrotePreset(arguments.setup, tuned, arguments.output) ? kDone : kRefused;
+  return wrotePreset(*preset, tuned, arguments.output) ? kDone : kRefused;
 }
 
 }  // namespace

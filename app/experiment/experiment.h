@@ -26,7 +26,7 @@ struct HoldSetup {
   /// A word from the name of the one strain to fly: "sweep", "head log", "weather" or "steady". If empty, all
   /// strains are flown.
   std::string strain;
-  bool fixedSettings = false;  ///< also flies every fixed setting
+  bool fixedSettings = false;  ///< also flies fixed settings, in turns with mode *hold*
 };
 
 struct Setup {

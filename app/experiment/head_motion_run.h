@@ -20,7 +20,7 @@ inline constexpr int kImagesPerS = 200;
 struct MotionMode {
   MotionControl control;
   const char* name;
-  bool holds = false;  ///< the arbiter holds the budget, and leaves out the blur that costs more than it wins
+  bool holds = false;  ///< the arbiter holds the budget, and may leave out the blur
 };
 inline constexpr std::array<MotionMode, 4> kMotionModes{
     {{MotionControl::off, "before"},

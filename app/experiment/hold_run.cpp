@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "trimtab/preset/preset.h"
 #include "trimtab/scene/data_extent.h"
@@ -209,12 +210,18 @@ void HoldPilot::drawNext() {
   const bool strains = i >= strain_.from && i < strain_.to;
   if (const auto& outcome = session_.hold().outcome(); strains && outcome && flight_.parameters->hold.enabled)
     run_.outcomes.push_back(*outcome);
-  if (strains && flight_.flipEvery > 0 && (i - strain_.from) % flight_.flipEvery == 0) {
-    const std::size_t kept = blurs(request) ? before_.size() : std::min<std::size_t>(before_.size(), 1);
-    run_.error.push_back(exposedError(referee_.meter(), request, std::span(before_).last(kept), kExposureMs));
-  }
-  before_.push_back(request);
-  if (before_.size() > kLongestTrace) before_.erase(before_.begin());
+  measures_ = strains && flight_.flipEvery > 0 && (i - strain_.from) % flight_.flipEvery == 0;
+  drawn_.push_back(request);
+  if (drawn_.size() > kLongestTrace + 1) drawn_.erase(drawn_.begin());
+}
+
+void HoldPilot::measure() {
+  if (!std::exchange(measures_, false)) return;
+  const FrameRequest& request = drawn_.back();
+  const std::size_t before = drawn_.size() - 1,
+                    kept = blurs(request) ? before : std::min<std::size_t>(before, 1);
+  run_.error.push_back(
+      exposedError(referee_.meter(), request, std::span(drawn_).subspan(before - kept, kept), kExposureMs));
 }
 
 HoldRun HoldPilot::run() const {
@@ -228,6 +235,7 @@ std::optional<std::vector<HoldRun>> flyInTurns(std::span<HoldPilot* const> pilot
   for (std::size_t i = 0; i < strain.states.size(); ++i) {
     if (i % kAskedStates == 0 && !go(double(i) / double(strain.states.size()))) return std::nullopt;
     for (std::size_t k = 0; k < pilots.size(); ++k) pilots[(i + k) % pilots.size()]->drawNext();
+    for (HoldPilot* const pilot : pilots) pilot->measure();
   }
   std::vector<HoldRun> runs;
   for (const HoldPilot* pilot : pilots) runs.push_back(pilot->run());

@@ -96,6 +96,9 @@ class HoldPilot {
             const Strain& strain, const CostModel& model);
   /// Draws the next image of the strain.
   void drawNext();
+  /// Measures the image that was drawn last, if its turn has come. It takes so long that it is for after all
+  /// pilots of an image.
+  void measure();
   /// Returns what was drawn so far.
   HoldRun run() const;
   /// Returns the model, which a later flight may begin with, as a program would load it.
@@ -110,7 +113,8 @@ class HoldPilot {
   Session session_;
   HoldRun run_;
   std::vector<double> lookMs_;
-  std::vector<FrameRequest> before_;
+  std::vector<FrameRequest> drawn_;  ///< the last ones
+  bool measures_ = false;            ///< the last one
   std::size_t next_ = 0;
 };
 

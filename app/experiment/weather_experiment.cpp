@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::array<double, 3> kVertices{100000, 120000, 140000};
 constexpr int kMostTrials = 6;
-/// The budget of the arbiter, over the clear frame's time. It predicts what most images take, which is some 2
-/// % above the median where some are late, and stays some 3 % below the budget.
+/// The budget of the arbiter, over the clear frame's time. The arbiter predicts what most images take, which
+/// is above the median by some 2 % where some are late, and stays below its budget by some 3 %.
 constexpr double kHeld = 1.05;
 
 Plot plotOf(const Table& table, const char* fall) {

@@ -17,8 +17,8 @@ constexpr int kUncounted = 3;
 /// Clear and held frames are drawn in turns of so many frames that count. In the first turns of a cell the
 /// arbiter settles on what falls now, and the others are compared.
 constexpr int kTurn = 9, kSettlingTurns = 10, kTurns = 6;
-/// Before the first cell it is given less and then more of the clear frame's time, as in a flight, so that it
-/// knows what the levers are worth.
+/// Before the first cell the arbiter is given less and then more of the clear frame's time in heavy rain, so
+/// that it knows what the levers are worth, as after a flight.
 constexpr int kLearningTurns = 12;
 /// The clear frame's time is the median of the last turns, because the machine's speed changes.
 constexpr int kRemembered = 3 * kTurn;
@@ -100,7 +100,7 @@ WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overC
   hold_.setMemory({});
   std::vector<double> clearMs, heldMs;
   Held held;
-  const auto turn = [&](double part) {
+  const auto turn = [&](double part, const WeatherDecision& falling) {
     const std::vector<double> clear = drawn({}, kTurn);
     clearMs.insert(clearMs.end(), clear.begin(), clear.end());
     const auto last = clearMs.end() - std::min<std::ptrdiff_t>(std::ssize(clearMs), kRemembered);
@@ -108,7 +108,7 @@ WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overC
     for (int i = 0; i < kUncounted + kTurn; ++i) {
       request_.time += kFrameS;
       FrameRequest request = request_;
-      request.decision.weather = weather;
+      request.decision.weather = falling;
       const HoldGiven given = hold_.look(request, {}, budgetMs, request.lod.screenSpaceError.value());
       held.levers = hold_.decide(given, parameters, request).held;
       const FrameResult result = heldStage_->draw(request);
@@ -116,12 +116,15 @@ WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overC
       if (i >= kUncounted) heldMs.push_back(workMs(result.cost));
     }
   };
-  if (hold_.model().images() == 0)
+  if (hold_.model().images() == 0) {
+    const WeatherDecision rain = weatherOf(preset_, WeatherStep::rain_heavy, RatioMode::off);
     for (int i = 0; i < kLearningTurns; ++i)
-      turn(0.5 + 0.5 * std::abs(i - kLearningTurns / 2) / (kLearningTurns / 2));
-  for (int i = 0; i < kSettlingTurns; ++i) turn(1);
+      turn(0.5 + 0.5 * std::abs(i - kLearningTurns / 2) / (kLearningTurns / 2), rain);
+    hold_.setMemory({});
+  }
+  for (int i = 0; i < kSettlingTurns; ++i) turn(1, weather);
   const std::ptrdiff_t compared = kTurns * kTurn;
-  for (int i = 0; i < kTurns; ++i) turn(1);
+  for (int i = 0; i < kTurns; ++i) turn(1, weather);
   clearMs.erase(clearMs.begin(), clearMs.end() - compared);
   heldMs.erase(heldMs.begin(), heldMs.end() - compared);
   held.ofClear = pairedRatio(clearMs, heldMs);

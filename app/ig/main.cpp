@@ -123,7 +123,8 @@ int runWith(const Options& options) {
   session.setGround(ground);
   session.setLoadIndex(scene::loadIndexOf(ground));
   // A watched preset may ask for the arbiter later.
-  report(recallCostModel(session.hold().model(), machineName(gl->renderer)));
+  if (preset->parameters->hold.enabled || watch)
+    report(recallCostModel(session.hold().model(), machineName(gl->renderer)));
   session.head() = std::move(head).value();
   session.keepRows(true);
   Damage damage(ground, renderer);

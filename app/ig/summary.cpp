@@ -34,8 +34,11 @@ std::string heldText(const Summary& s) {
   if (heldAs(s, HoldReason::off) == s.frames) return {};
   std::string text = "; budget held: lowered in " + std::to_string(heldAs(s, HoldReason::lowered)) +
                      " frames, out of reach in " + std::to_string(heldAs(s, HoldReason::out_of_reach));
-  if (const std::uint64_t unknown = heldAs(s, HoldReason::no_budget); unknown > 0)
-    text += ", no budget in " + std::to_string(unknown);
+  const auto append = [&](const char* what, HoldReason reason) {
+    if (heldAs(s, reason) > 0) text += what + std::to_string(heldAs(s, reason));
+  };
+  append(", cost not known yet in ", HoldReason::cost_unknown);
+  append(", no budget in ", HoldReason::no_budget);
   return text;
 }
 

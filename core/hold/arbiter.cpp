@@ -35,8 +35,9 @@ constexpr double kLastsMs = 4000, kMostPatience = 32;
 constexpr double kMostBuildingMs = 2000;
 /// Settings whose times differ by less are alike.
 constexpr double kAlike = 1.03;
-/// No image counts for more than this part of the calm that restoring waits for, however far the clock jumps.
-constexpr double kMostOfCalm = 1.0 / 3;
+/// No image counts for more than this part of the calm that restoring waits for, however far the clock jumps;
+/// but each may count for so long, so that a short calm does not stop the waits above.
+constexpr double kMostOfCalm = 1.0 / 3, kAlwaysCountsMs = 40;
 
 /// The settings of one lever, from what is asked for downwards, with the loss of each.
 template <std::size_t Most>
@@ -143,7 +144,7 @@ class Search {
   double timeAt(const HoldSteps& s) const { return predictAt(s).total(); }
   StageTimes predictAt(const HoldSteps& s) const { return predict(given_.cost, loadAt(s)); }
   /// Returns the time with `caution` of the bands by which it is less certain than at the steps before, but
-  /// no more than it can be. Where that is above the limit, something above the limit.
+  /// no more than it can be. If that is above the limit, any time above the limit may be returned.
   double timeForSure(const HoldSteps& s, double limitMs) const {
     const FrameLoad load = loadAt(s);
     const double ms = predict(given_.cost, load).total();
@@ -305,7 +306,8 @@ FrameLoad loadOf(const HoldGiven& given, const HeldLevers& levers, double triang
 HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemory& memory) {
   HoldDecision d;
   d.asked = d.held = given.asked;
-  const double passedMs = passed(given, memory), ms = std::min(passedMs, kMostOfCalm * p.calm.value());
+  const double passedMs = passed(given, memory);
+  const double ms = std::min(passedMs, std::max(kMostOfCalm * p.calm.value(), kAlwaysCountsMs));
   const bool budget = given.budgetMs > 0 && std::isfinite(given.budgetMs);
   if (!p.enabled || !budget || !given.cost.known || !isNumber(given)) {
     d.reason = !p.enabled ? HoldReason::off : !budget ? HoldReason::no_budget : HoldReason::cost_unknown;
@@ -333,7 +335,7 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
       now = before;
     d.reason = HoldReason::lowered;
     memory.calmMs = 0;
-    // Of a view that sees little ground a finer cut can be the quicker one, because fewer of its nodes reach
+    // In a view that sees little ground a finer cut can be the quicker one, because fewer of its nodes reach
     // into it. It waits for its meshes like one that is restored.
     if (!meshesReady(given, before.error, now.error, passedMs, memory) && memory.begun) now = before;
     if (memory.restoredMs < kLastsMs) memory.patience = std::min(2 * memory.patience, kMostPatience);

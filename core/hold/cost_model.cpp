@@ -10,6 +10,9 @@ namespace {
 
 /// Below so many images a prediction would be little more than the first image's time.
 constexpr std::size_t kFewestImages = 8;
+/// What the first drops of a fade take is the pass, not the drops, and would give their cost a scale that is
+/// far too large.
+constexpr double kFewestParticles = 0.05;
 /// Triangles count by ten thousands, so that all quantities are of one order.
 constexpr double kTriangleUnit = 1e-4;
 
@@ -112,7 +115,7 @@ void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
     band_ = std::clamp(band_ + kStep * (error > before.bandMs ? 0.9 : -0.1) * band_, 0.3, 10.0);
   }
   ground_.observe(groundOf(load), took.ground);
-  if (falls) weather_.observe(weatherOf(load), cost.weather);
+  if (load.particles >= kFewestParticles) weather_.observe(weatherOf(load), cost.weather);
   if (load.blurs) blur_.observe(blurOf(load), cost.blur);
   noteOther(took.other);
   ++images_;

@@ -63,6 +63,7 @@ class Outside {
 
 /// A node that waits, with the first step that draws its parent instead.
 std::uint64_t packed(std::uint32_t node, std::size_t below) {
+  static_assert(kErrorSteps <= 0xff);
   return std::uint64_t{node} << 8 | below;
 }
 

@@ -37,7 +37,8 @@ inline constexpr std::array kHoldRows{
         {.key = "hold.calm_ms",
          .label = "Calm before restoring",
          .help = "Head-room must last so long before levers are restored, so that a glance changes the "
-                 "level of detail twice at most. Lowering never waits.",
+                 "level of detail twice at most. While the eye moves, the allowed error waits for 1 s, or "
+                 "for 0.4 s if there is ample room. Lowering never waits.",
          .hard = {0, 10000},
          .usual = {0, 1000},
          .step = 10,

@@ -173,7 +173,8 @@ double Search::lengthOf(const Shell& shell) const {
 /// much of the image, as long streaks do.
 double Search::room(const Shell& shell) const {
   const double perMetre = pixelsPerMetre / (0.75 * shell.farM);
-  const double width = std::max(2 * radiusOf(shell) * perMetre, 2.0);
+  // The pass draws at least two pixels of the scene.
+  const double width = std::max(2 * radiusOf(shell) * perMetre, 2 / falling.renderScale);
   const double covered = amount * shell.count * width * (width + lengthOf(shell) * perMetre);
   const double scene = double{1} * view.shape.widthPx * view.shape.heightPx;
   const double image = scene / (falling.renderScale * falling.renderScale);
@@ -244,11 +245,12 @@ void Search::searchCell(const Shell& shell, double far, Vec3 corner, double side
     const double size = bundles ? 1 : std::clamp(distance / kind.realSizeM, 0.15, 1.0);
     const double radius = radiusOf(shell) * size * (0.6 + 0.8 * own.z);
     const double widthPx = 2 * radius * pixelsPerMetre / -p.z;
-    const double strength =
-        (bundles ? shell.bundle.opacity * haze : opacity) * std::min(1.0, count - static_cast<double>(i)) *
-        smoothStep(shell.nearM, 1.4 * shell.nearM, distance) * (1 - smoothStep(0.75 * far, far, distance)) *
-        smoothStep(0.75, 1.5, widthPx) * std::exp(-extinction * distance);
-    if (strength > kFaintest) found.push_back({p, radius, lengthM, std::min(stronger * strength, 1.0)});
+    const double strength = std::min(stronger * (bundles ? shell.bundle.opacity * haze : opacity), 1.0) *
+                            std::min(1.0, count - static_cast<double>(i)) *
+                            smoothStep(shell.nearM, 1.4 * shell.nearM, distance) *
+                            (1 - smoothStep(0.75 * far, far, distance)) * smoothStep(0.75, 1.5, widthPx) *
+                            std::exp(-extinction * distance);
+    if (strength > kFaintest) found.push_back({p, radius, lengthM, strength});
   }
 }
 

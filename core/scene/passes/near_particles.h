@@ -34,7 +34,8 @@ inline constexpr std::size_t kMostParticles = 12'000;
 /// arguments alone. There are as many at each distance as the image can show: few near the eye, where each
 /// covers many pixels, and none where one is narrower than a pixel or lost in fog. `share` and `amount` of
 /// `falling` lower their number; the last of a cell fades, so that nothing appears at once. With a smaller
-/// share, those that are left are stronger by as much, so that rain looks as dense for less time.
+/// share, those that are left are stronger by as much, as far as none is more than opaque, so that rain looks
+/// as dense and takes less time.
 ///
 /// Takes some 20 ns a particle. Numbers that are not finite count as 0; a view without an area has no
 /// particles.

@@ -22,8 +22,9 @@ struct PrecipitationView {
   double amount = 0;   ///< 0..1: as the density, but for the bounded form while it fades
   PrecipitationForm form = PrecipitationForm::bounded;
   double share = 1;  ///< of the particles of that intensity, those that are drawn, 0..1
-  /// Of the view over that of the image, 0..1. What is too small to be seen is so in the image's pixels, or
-  /// rain would vanish from a scene that is drawn smaller.
+  /// How large the view is beside the image, 0..1. Whether a particle is too small to be seen is decided in
+  /// the image's pixels, or rain would vanish from a scene that is drawn smaller. The published effect
+  /// ignores it.
   double renderScale = 1;
   double time = 0;  ///< seconds; the place of each drop depends on it alone
   Vec3 velocity;  ///< of the eye through the air, metres per second in the local frame; drops streak along it

@@ -339,8 +339,8 @@ TEST(Arbiter, neverGoesBeyondTheEngineersLimits) {
 /// as far as they may, are not enough.
 TEST(Arbiter, lossesFarApartAreAnOrder) {
   HoldParameters p = enabled();
-  p.lossParticles = Ratio{1e-6};
-  p.lossRenderScale = Ratio{1e-3};
+  p.lossParticles = Ratio{0};
+  p.lossRenderScale = Ratio{1e-5};
   p.lossError = p.lossBlur = Ratio{1};
   bool scaled = false, coarser = false;
   for (double budgetMs = 45; budgetMs > 8; budgetMs -= 0.5) {

@@ -179,6 +179,25 @@ TEST(Arbiter, patienceOutlastsAMovingEye) {
   EXPECT_LE(exchanges, 40) << "65 where patience ends within hold.calm_ms";
 }
 
+/// A calm of nothing, or of less than an image, must not keep the error from returning while the eye moves.
+TEST(Arbiter, theErrorReturnsWithAnyCalm) {
+  for (const double calmMs : {0.0, 10.0, 120.0, 300.0}) {
+    HoldMemory memory;
+    double returnedMs = 0;
+    for (int i = 0; i < 400 && returnedMs == 0; ++i) {
+      HoldGiven g = given(i / 60.0);
+      g.budgetMs = 44;
+      g.moves = true;
+      for (double& triangles : g.triangles) triangles *= i < 50 ? 8 : 1;
+      HoldParameters p = enabled();
+      p.renderScaleMinimum = Ratio{1};
+      p.calm = Milliseconds{calmMs};
+      if (arbitrate(g, p, memory).held.errorPx == 1 && i > 50) returnedMs = (i - 50) * 1000 / 60.0;
+    }
+    EXPECT_NEAR(returnedMs, 400, 40) << calmMs;
+  }
+}
+
 TEST(Arbiter, whileTheEyeMovesTheErrorReturnsAfterASecondOrSoonerWithAmpleRoom) {
   struct Case {
     bool moves;

@@ -62,7 +62,7 @@ class Machine {
     const double noise = std::normal_distribution<double>(1, 0.04)(random_);
     FrameCost& c = result.cost;
     const double amount = fallsNow(request).amount;
-    c.weather = amount > 0 ? 14 * amount * request.particleShare : kNan;
+    c.weather = amount > 0 ? 0.5 + pixels + 12 * amount * request.particleShare : kNan;
     c.blur = request.decision.motion.blur.strength > 0 ? 3 * pixels : kNan;
     c.draw = noise * (3 + 9 * pixels + 1e-4 * static_cast<double>(result.visible.triangles)) +
              (std::isnan(c.weather) ? 0 : c.weather) + (std::isnan(c.blur) ? 0 : c.blur);

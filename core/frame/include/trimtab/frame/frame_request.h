@@ -95,7 +95,7 @@ inline double farCutM(const FrameRequest& request) {
   return request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited;
 }
 
-/// Returns what falls in this image: what the decision says, or what fades if the form that draws it fades.
+/// Returns what falls in this image: what the decision says, or in the bounded form what fades in or out.
 FadingPrecipitation fallsNow(const FrameRequest& request);
 
 /// Sets the allowed screen-space error of levels and patches, pixels, and scales that of static trees with

@@ -42,7 +42,8 @@ enum class HoldReason : std::uint8_t {
   out_of_reach   ///< as low as the limits allow, and the prediction still does not fit
 };
 
-inline constexpr std::size_t kHoldReasons = 8;
+/// How many there are.
+inline constexpr std::size_t kHoldReasons = static_cast<std::size_t>(HoldReason::out_of_reach) + 1;
 
 struct HoldDecision {
   HoldReason reason = HoldReason::off;

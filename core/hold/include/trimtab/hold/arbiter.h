@@ -10,25 +10,26 @@
 
 /// Keeps the predicted time of each image within the budget.
 ///
-/// Each image, the arbiter looks at every setting of the levers that it may move, some two thousand in motion
-/// and sixteen thousand at rest, and takes the one that loses least among those that fit. While the eye
-/// moves, a setting with another allowed error than the image before counts as losing a quarter more, because
-/// it exchanges levels of detail. Prediction comes first and measurement only corrects the model, so there is
-/// nothing to oscillate: Funkhouser and Sequin, "Adaptive Display Algorithm for Interactive Frame Rates
-/// During Visualization of Complex Virtual Environments", SIGGRAPH 1993. Their benefit of an object is here
-/// the loss of the image, in the mean FLIP that leverage measures.
+/// Each image, the arbiter looks at every setting of the levers that it may move, some thousand in motion and
+/// several thousand at rest, and takes the one that loses least among those that fit. A setting with another
+/// allowed error than the image before counts as losing a quarter more, because it exchanges levels of
+/// detail. Prediction comes first and measurement only corrects the model, so there is nothing to oscillate:
+/// Funkhouser and Sequin, "Adaptive Display Algorithm for Interactive Frame Rates During Visualization of
+/// Complex Virtual Environments", SIGGRAPH 1993. Their benefit of an object is here the loss of the image, in
+/// the mean FLIP that leverage measures.
 ///
 /// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
 /// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
 /// in one step, because each step of it exchanges levels. While the eye moves it returns only after a second,
-/// or after 0.4 s if the image takes less than three quarters of the limit, so that a glance does not exchange
-/// them twice. It also waits until the meshes that it needs are built (Renderer::buildAhead), for at most two
-/// seconds. A restoration that is taken back within four seconds makes the next one wait twice as long, up to
-/// 32 times, until one has lasted for as long; while the eye moves that halves every four seconds.
+/// or after 0.4 s if the image takes less than three quarters of the limit, so that a glance does not
+/// exchange them twice. It also waits until the meshes that it needs are built (Renderer::buildAhead), for at
+/// most two seconds. A restoration that is taken back within four seconds makes the next one wait twice as
+/// long, up to 32 times, until one has lasted for as long; while the eye moves that halves every four
+/// seconds.
 ///
 /// While the eye moves, the allowed error moves by half octaves, so that a glance changes levels once or
 /// twice; the other levers take what that gives up too much. At rest it moves by sixteenths. Restoring must
-/// win more than a tenth of the loss, and in motion more than a fifth if it exchanges levels. It goes only
+/// win more than a tenth of the loss, and more than a fifth if it exchanges levels. It goes only
 /// where the model is sure that it fits: a setting unlike those that were drawn lately counts as longer by
 /// hold.caution of the bands that this adds (coefficientBandMs).
 namespace trimtab {

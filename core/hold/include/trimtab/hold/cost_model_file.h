@@ -9,8 +9,9 @@
 /// Keeps what a machine's images cost from one run to the next.
 namespace trimtab {
 
-/// Returns the name of this machine as it draws: its processor, how many of its cores it has, and the GL
-/// renderer, which of a software rasteriser says neither.
+/// Returns the name of this machine as it draws: its processor (if the system names it), how many cores this
+/// process may use, and the GL renderer. The renderer alone does not do, because a software rasteriser's
+/// names no processor.
 std::string machineName(const std::string& glRenderer);
 
 /// Writes a model with the name of the machine that it was learned on. The file is the old one or the whole

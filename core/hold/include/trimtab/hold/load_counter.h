@@ -17,8 +17,8 @@
 /// Counts the triangles that a view would draw, and names its nodes, without drawing it.
 namespace trimtab {
 
-/// The scale of allowed errors: place i is 2^(i/16) times the first, from 1/8 to 64 px. A place is worth some
-/// 5 percent of an image's time.
+/// The scale of allowed errors: place i is 2^(i/16) times the first, from 1/8 to 64 px. Where triangles
+/// fall by half from octave to octave, a place is worth 4 percent of their time.
 inline constexpr double kFirstErrorPx = 0.125;
 inline constexpr std::size_t kPlacesPerOctave = 16, kErrorPlaces = 9 * kPlacesPerOctave + 1;
 
