@@ -124,7 +124,7 @@ TEST_F(BoundedPrecipitation, looksAboutAsDenseAtAnyShareAndRenderScale) {
       const double whole = seen(r);
       for (const double share : {0.75, 0.5, 0.25}) {
         r.particleShare = share;
-        const double least = kind == Precipitation::rain ? 0.6 : 0.35 + 0.6 * share;
+        const double least = kind == Precipitation::rain ? 0.6 : 0.15 + 0.75 * share;
         EXPECT_GT(seen(r), least * whole) << share;
         EXPECT_LT(seen(r), 1.3 * whole) << share;
       }
