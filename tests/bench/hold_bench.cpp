@@ -109,7 +109,7 @@ void look(Report& report, const std::shared_ptr<const terrain::Database>& terrai
   FrameRequest last = flight.next();
   const double names = leastSeconds(runs, [&] { keep(flight.session().nodesAhead(last).size()); });
   // At rest and in rain there are most settings to choose from, and where none fits each is predicted.
-  Flight rests(terrain, bench, holding(0.01, WeatherStep::rain_heavy));
+  Flight rests(terrain, bench, holding(0.1, WeatherStep::rain_heavy));
   for (int i = 0; i < kImages; ++i) drawn = rests.draw(rests.again());
   const double search = leastSeconds(runs, [&] {
     keep(rests.again());
