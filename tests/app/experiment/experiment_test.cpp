@@ -8,11 +8,11 @@
 
 #include "app/experiment/hold_run.h"
 #include "app/experiment/weather_view.h"
+#include "tests/app/experiment/straight_flight.h"
 #include "tests/support.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/host/head_log.h"
 #include "trimtab/preset/preset.h"
-#include "trimtab/scene/data_extent.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/synthetic/sample.h"
@@ -300,16 +300,7 @@ TEST_F(Experiment, aBudgetIsHeldInFlightsBesideFixedSettings) {
   s.heightPx = 36;
   s.hold.flightS = 1.2;  // of which 60 images warm up
   s.hold.budgetMs = 2;
-  Flight flight;
-  flight.name = "straight";
-  for (int i = 0; i <= 40; ++i) {
-    AircraftState state;
-    state.time = i * 0.1;
-    state.position = scene::placeIn(terrain_->info(), 0.4 + 0.004 * i, 0.4);
-    state.position.height = Metres{1500};
-    flight.states.push_back(state);
-  }
-  s.flight = std::move(flight);
+  s.flight = test::straightFlight(*terrain_, 0.4, 4);
   s.hold.strain = "head log";
   s.hold.fixedSettings = true;
   const auto head = runHold(s);
@@ -332,14 +323,7 @@ TEST_F(Experiment, aBudgetIsHeldInFlightsBesideFixedSettings) {
 /// The head of a log looks around in the weather strain too.
 TEST_F(Experiment, theWeatherStrainHasHeadAndWeather) {
   experiment::Setup s = setup();
-  Flight flight;
-  for (int i = 0; i <= 40; ++i) {
-    AircraftState state;
-    state.time = i * 0.1;
-    state.position = scene::placeIn(terrain_->info(), 0.5, 0.5);
-    flight.states.push_back(state);
-  }
-  s.flight = std::move(flight);
+  s.flight = test::straightFlight(*terrain_, 0.4, 4);
   const Result<HeadLog> head = parseSweep("sweep:120/0.5/0.1");
   ASSERT_TRUE(head);
   const auto strain = weatherStrain(s, *head, 3);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/experiment/stage.h"
+#include "tests/app/experiment/straight_flight.h"
 #include "tests/support.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/session/session.h"
@@ -51,19 +52,7 @@ class LeverageTest : public ::testing::Test {
     setup.heightPx = 90;
     setup.repeats = 1;
     setup.frames = kFrames;
-    Flight flight;
-    flight.name = "straight";
-    for (int i = 0; i <= 100; ++i) {
-      AircraftState state;
-      state.time = i * 0.1;
-      state.position = scene::placeIn(terrain_->info(), 0.3 + 0.004 * i, 0.4);
-      const auto ground =
-          terrain_->highestWithin(state.position.latitude, state.position.longitude, Metres{2000});
-      state.position.height = *ground + Metres{500};
-      state.attitude = {Degrees{90}, Degrees{-4}, {}};
-      flight.states.push_back(state);
-    }
-    setup.flight = std::move(flight);
+    setup.flight = test::straightFlight(*terrain_, 0.3, 10);
     return setup;
   }
 

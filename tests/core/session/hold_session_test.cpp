@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 #include "tests/core/culling/random_index.h"
@@ -278,6 +279,7 @@ TEST(HoldSession, settlesAfterEveryStepAndDoesNotCycle) {
       over += settled && ms > 1.1 * 14;
       last = request.hold.held;
     }
+    std::printf("%s: %d images change a lever late\n", step.what, late);
     // A cycle of a second would change levers a hundred times and more.
     EXPECT_LE(late, step.what == std::string("rest") ? 0 : 30) << step.what;
     EXPECT_LE(over, 5 + (machine.spikes ? kImages / 97 : 0)) << step.what;
