@@ -15,7 +15,10 @@ float metresInFog(vec3 fromEye, float metres) { return metres; }
 #endif
 #endif
 
-// `clearness` is the share of the colour that clear air's haze leaves; `fromEye` is in metres.
+// The share of a colour that the haze of clear air leaves.
+float hazeLeaves(vec3 fromEye) { return exp(-length(fromEye) * (1.0 / HAZE_DISTANCE)); }
+
+// `clearness` is what hazeLeaves returns; `fromEye` is in metres.
 vec3 throughAir(vec3 colour, float clearness, vec3 fromEye) {
   vec3 shown = mix(haze, colour, clearness);
 #ifdef IN_WEATHER

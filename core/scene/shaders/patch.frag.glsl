@@ -32,5 +32,5 @@ void main() {
 #ifdef WIRE
   lit = vec3(0.05, 0.05, 0.08);
 #endif
-  fragment = vec4(throughAir(lit, exp(-length(relative) * (1.0 / HAZE_DISTANCE)), relative), 1.0);
+  fragment = vec4(throughAir(lit, hazeLeaves(relative), relative), 1.0);
 }

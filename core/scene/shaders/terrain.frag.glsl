@@ -22,5 +22,11 @@ void main() {
   if (textureSquares) shown *= textureSquare(inTexture);
 #endif
 #endif
+#ifdef IN_WEATHER
+  // Weather needs `relative`. A software rasteriser pays for each four floats of a triangle, and eight are here without
+  // `clearness`.
+  fragment = vec4(throughAir(shown, hazeLeaves(relative), relative), 1.0);
+#else
   fragment = vec4(throughAir(shown, clearness, relative), 1.0);
+#endif
 }
