@@ -270,7 +270,7 @@ bool isNumber(const HoldGiven& g) {
   const CostCoefficients& c = g.cost;
   double sum = g.asked.errorPx + g.asked.renderScale + g.asked.particleShare + g.asked.blurShare +
                g.unseenPx + g.particles + g.imageMpx + g.groundMpx + c.fixed + c.perTriangle +
-               c.perGroundMpx + c.perSceneMpx + c.perParticles + c.perWeatherMpx + c.perBlurMpx + c.other;
+               c.perTriangleSide + c.perGroundMpx + c.perParticles + c.perWeatherMpx + c.perBlurMpx + c.other;
   for (const double triangles : g.triangles) sum += triangles;
   for (const double variance : c.variance.ground) sum += variance;
   for (const double variance : c.variance.weather) sum += variance;
@@ -348,7 +348,7 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     d.reason = HoldReason::held;
     const bool ample = search.timeAt(before) < kAmple * d.limitMs;
     if (room && memory.calmMs >= p.calm.value() * (ample ? 1 : memory.patience)) {
-      const double movingCalmMs = ample ? kAmpleCalmMs : kMovingCalmMs;
+      const double movingCalmMs = (ample ? kAmpleCalmMs : kMovingCalmMs) * memory.patience;
       const bool returns = ready && (!given.moves || memory.calmMs >= movingCalmMs);
       const HoldSteps nearer = raised(before, wanted, returns);
       if (nearer != before && search.timeForSure(nearer, d.limitMs) <= d.limitMs)

@@ -16,8 +16,14 @@ constexpr double kFewestParticles = 0.05;
 /// Triangles count by ten thousands, so that all quantities are of one order.
 constexpr double kTriangleUnit = 1e-4;
 
+/// The root of the scene's pixels, in thousands.
+double sideOf(const FrameLoad& load) {
+  return std::sqrt(std::max(load.sceneMpx, 0.0));
+}
+
 std::array<double, 4> groundOf(const FrameLoad& load) {
-  return {1, load.triangles * kTriangleUnit, load.groundMpx, load.sceneMpx};
+  const double triangles = load.triangles * kTriangleUnit;
+  return {1, triangles, triangles * sideOf(load), load.groundMpx};
 }
 std::array<double, 2> weatherOf(const FrameLoad& load) {
   return {load.particles, load.sceneMpx};
@@ -58,8 +64,8 @@ double orZero(double ms) {
 
 StageTimes predict(const CostCoefficients& c, const FrameLoad& load) {
   StageTimes times;
-  times.ground = c.fixed + c.perTriangle * load.triangles + c.perGroundMpx * load.groundMpx +
-                 c.perSceneMpx * load.sceneMpx;
+  times.ground = c.fixed + (c.perTriangle + c.perTriangleSide * sideOf(load)) * load.triangles +
+                 c.perGroundMpx * load.groundMpx;
   if (load.particles > 0) times.weather = c.perParticles * load.particles + c.perWeatherMpx * load.sceneMpx;
   if (load.blurs) times.blur = c.perBlurMpx * load.sceneMpx;
   times.other = c.other;
@@ -68,7 +74,8 @@ StageTimes predict(const CostCoefficients& c, const FrameLoad& load) {
 
 double coefficientBandMs(const CostCoefficients& c, const FrameLoad& load) {
   const CostVariance& v = c.variance;
-  double variance = varianceOf<4>(v.ground, {1, load.triangles, load.groundMpx, load.sceneMpx});
+  double variance =
+      varianceOf<4>(v.ground, {1, load.triangles, load.triangles * sideOf(load), load.groundMpx});
   if (load.particles > 0) variance += varianceOf<2>(v.weather, {load.particles, load.sceneMpx});
   if (load.blurs) variance += v.blur * load.sceneMpx * load.sceneMpx;
   return kNormalBand * std::sqrt(variance);
@@ -80,6 +87,7 @@ double mostTimesAsLong(const FrameLoad& before, const FrameLoad& after) {
     if (to > from) most = std::max(most, from > 0 ? to / from : kInfinity);
   };
   compare(before.triangles, after.triangles);
+  compare(before.triangles * sideOf(before), after.triangles * sideOf(after));
   compare(before.groundMpx, after.groundMpx);
   compare(before.sceneMpx, after.sceneMpx);
   compare(before.particles, after.particles);
@@ -139,8 +147,8 @@ CostCoefficients CostModel::coefficients(const FrameLoad& load) const {
   CostCoefficients c;
   c.fixed = g[0];
   c.perTriangle = g[1] * kTriangleUnit;
-  c.perGroundMpx = g[2];
-  c.perSceneMpx = g[3];
+  c.perTriangleSide = g[2] * kTriangleUnit;
+  c.perGroundMpx = g[3];
   c.perParticles = w[0];
   c.perWeatherMpx = w[1];
   c.perBlurMpx = blur_.state().coefficient[0];
@@ -150,7 +158,7 @@ CostCoefficients CostModel::coefficients(const FrameLoad& load) const {
   if (load.blurs) deviation = std::hypot(deviation, blur_.deviation(blurOf(load)));
   c.bandMs = band_ * deviation;
   c.known = ground_.state().images >= kFewestImages;
-  keep<4>(ground_.state().covariance, {1, kTriangleUnit, 1, 1}, c.variance.ground);
+  keep<4>(ground_.state().covariance, {1, kTriangleUnit, kTriangleUnit, 1}, c.variance.ground);
   keep<2>(weather_.state().covariance, {1, 1}, c.variance.weather);
   c.variance.blur = blur_.state().covariance[0][0];
   return c;

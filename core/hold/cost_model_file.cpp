@@ -17,7 +17,7 @@
 namespace trimtab {
 namespace {
 
-constexpr std::string_view kHeader = "trimtab-cost-model 1";
+constexpr std::string_view kHeader = "trimtab-cost-model 2";
 
 /// Visits every number of a state, in the order of the file.
 template <std::size_t N, class Fit, class Visit>

@@ -57,7 +57,7 @@ void forEachNumber(Given& g, const Visit& visit) {
   for (auto& triangles : g.triangles) visit(triangles);
   visit(g.meshesLeft);
   auto& c = g.cost;
-  for (auto* number : {&c.fixed, &c.perTriangle, &c.perGroundMpx, &c.perSceneMpx, &c.perParticles,
+  for (auto* number : {&c.fixed, &c.perTriangle, &c.perTriangleSide, &c.perGroundMpx, &c.perParticles,
                        &c.perWeatherMpx, &c.perBlurMpx, &c.other, &c.bandMs})
     visit(*number);
   visit(c.known);

@@ -47,11 +47,11 @@ TEST(BudgetMinute, knownCostsNameTheLeverThatSavesMost) {
   CostCoefficients triangles;
   triangles.known = true;
   triangles.perTriangle = 1e-5;
-  triangles.perSceneMpx = 2;
+  triangles.perGroundMpx = 2;
   EXPECT_EQ(minute.help(16, triangles)->lever, "allowed error");
   EXPECT_NEAR(minute.help(16, triangles)->ms, 5, 1e-9);
   CostCoefficients pixels = triangles;
-  pixels.perGroundMpx = 15;
+  pixels.perGroundMpx = 17;
   EXPECT_EQ(minute.help(16, pixels)->lever, "render scale");
   EXPECT_NEAR(minute.help(16, pixels)->ms, 8.5, 1e-9);
 }

@@ -27,8 +27,7 @@ inline HoldGiven given(double timeS = 0) {
     g.triangles[k] = 1e5 * std::exp2(-static_cast<double>(k) / kPlacesPerOctave);
   g.cost = {.fixed = 2,
             .perTriangle = 1e-4,
-            .perGroundMpx = 36,
-            .perSceneMpx = 2,
+            .perGroundMpx = 40,
             .perParticles = 3,
             .perWeatherMpx = 1,
             .perBlurMpx = 3,

@@ -106,7 +106,8 @@ TEST(CostModel, theBandGrowsForLoadsUnlikeThoseDrawn) {
   EXPECT_LE(like, cost.bandMs);
   // The filter itself is the oracle: without noise, bands times its deviation.
   const auto& ground = model.state().ground;
-  const std::array<double, 4> x{1, unlike.triangles * 1e-4, 0, unlike.sceneMpx};
+  const double triangles = unlike.triangles * 1e-4;
+  const std::array<double, 4> x{1, triangles, triangles * std::sqrt(unlike.sceneMpx), 0};
   double variance = 0;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) variance += x[i] * x[j] * ground.covariance[i][j];
@@ -120,8 +121,8 @@ TEST(CostModel, noImageTakesLongerThanItsGreatestRatioOfALoad) {
   for (int i = 0; i < 2000; ++i) {
     const CostCoefficients cost{.fixed = uniform(random),
                                 .perTriangle = 1e-4 * uniform(random),
+                                .perTriangleSide = 1e-4 * uniform(random),
                                 .perGroundMpx = 20 * uniform(random),
-                                .perSceneMpx = 20 * uniform(random),
                                 .perParticles = 3 * uniform(random),
                                 .perWeatherMpx = uniform(random),
                                 .perBlurMpx = uniform(random),

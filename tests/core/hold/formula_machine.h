@@ -20,7 +20,7 @@ inline CostModel formulaMachine(double slowness) {
     FrameCost cost;
     cost.weather = slowness * 12 * load.particles;
     cost.blur = slowness * 13 * load.sceneMpx;
-    cost.total = slowness * (2 + 70 * load.sceneMpx + 2e-4 * load.triangles) + cost.weather + cost.blur;
+    cost.total = slowness * (2 + 70 * load.groundMpx + 2e-4 * load.triangles) + cost.weather + cost.blur;
     cost.gpu = std::numeric_limits<double>::quiet_NaN();
     model.observe(load, cost);
   }

@@ -133,7 +133,7 @@ TEST(Arbiter, restoresLessOftenWhereRestoringHadToBeTakenBack) {
 /// The pixels' cost was not seen for long, so a larger image may take much longer than it is predicted to.
 TEST(Arbiter, restoresOnlyWhereTheModelIsSure) {
   struct Case {
-    double deviation;  ///< of perSceneMpx, ms a million pixels
+    double deviation;  ///< of perGroundMpx, ms a million pixels
     double caution;
     bool restores;
   };
@@ -177,6 +177,27 @@ TEST(Arbiter, patienceOutlastsAMovingEye) {
   }
   EXPECT_GT(exchanges, 2) << "it tries";
   EXPECT_LE(exchanges, 40) << "65 where patience ends within hold.calm_ms";
+}
+
+/// A load that leaves ample room in every other second: an eye that flies over hills, or a head that looks
+/// around.
+TEST(Arbiter, levelsReturnMoreSeldomWhereTheLoadComesBack) {
+  HoldMemory memory;
+  int exchanges = 0;
+  double last = 0;
+  for (int i = 0; i < 60 * 60; ++i) {
+    HoldGiven g = given(i / 60.0);
+    g.budgetMs = 36;
+    g.moves = true;
+    for (double& triangles : g.triangles) triangles *= i % 120 < 60 ? 4 : 1;
+    HoldParameters p = enabled();
+    p.renderScaleMinimum = p.particlesMinimum = Ratio{1};
+    const HoldDecision d = arbitrate(g, p, memory);
+    exchanges += i > 0 && d.held.errorPx != last;
+    last = d.held.errorPx;
+  }
+  EXPECT_GT(exchanges, 2) << "it tries";
+  EXPECT_LE(exchanges, 30) << "ample room alone would make it 60";
 }
 
 /// A calm of nothing, or of less than an image, must not keep the error from returning while the eye moves.
