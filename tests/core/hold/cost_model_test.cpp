@@ -106,8 +106,8 @@ TEST(CostModel, learnsWhatATriangleCostsAtAnyScale) {
       load = {load.triangles, load.groundMpx * part, load.sceneMpx * part, 0, false};
       model.observe(load, costOf(load));
     }
-    const FrameLoad load{8e4, 0.25, 0.45, 0, false};
-    EXPECT_NEAR(predictedMs(model, load) / costOf(load).total, 1, 0.01) << byLength;
+    const FrameLoad load{1.4e5, 0.1, 0.45, 0, false};
+    EXPECT_NEAR(predictedMs(model, load) / costOf(load).total, 1, 0.005) << byLength;
   }
 }
 
