@@ -27,7 +27,7 @@ constexpr std::size_t kNoPlace = kErrorPlaces + 1;
 /// While the eye moves, the allowed error returns only after head-room for so long, which is longer than a
 /// glance lasts, because the next view may need what this one does not. It is less if the image takes less
 /// than this part of the limit, because then too much was given up; but still so long that a head that looks
-/// around does not exchange levels at each turn.
+/// around does not exchange levels at each turn. Patience multiplies both.
 constexpr double kMovingCalmMs = 1000, kAmple = 0.75, kAmpleCalmMs = 400;
 /// A restoration that is taken back within so long was too early.
 constexpr double kLastsMs = 4000, kMostPatience = 32;

@@ -16,7 +16,7 @@ constexpr double kFewestParticles = 0.05;
 /// Triangles count by ten thousands, so that all quantities are of one order.
 constexpr double kTriangleUnit = 1e-4;
 
-/// The root of the scene's pixels, in thousands.
+/// The side of a square with as many pixels as the scene, thousands of pixels.
 double sideOf(const FrameLoad& load) {
   return std::sqrt(std::max(load.sceneMpx, 0.0));
 }

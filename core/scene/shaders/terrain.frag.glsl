@@ -23,8 +23,8 @@ void main() {
 #endif
 #endif
 #ifdef IN_WEATHER
-  // Weather needs `relative`. A software rasteriser pays for each four floats of a triangle, and eight are here without
-  // `clearness`.
+  // Weather needs `relative`, from which the haze follows too. With `clearness` instead there would be nine varying
+  // floats, and a software rasteriser prepares them by fours for each triangle.
   fragment = vec4(throughAir(shown, hazeLeaves(relative), relative), 1.0);
 #else
   fragment = vec4(throughAir(shown, clearness, relative), 1.0);

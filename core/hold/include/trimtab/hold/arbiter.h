@@ -25,7 +25,7 @@
 /// exchange them twice. It also waits until the meshes that it needs are built (Renderer::buildAhead), for at
 /// most two seconds. A restoration that is taken back within four seconds makes the next one wait twice as
 /// long, up to 32 times, until one has lasted for as long; while the eye moves that halves every four
-/// seconds. With ample room only the allowed error of a moving eye waits longer for that.
+/// seconds. Where there is ample room, patience delays the allowed error of a moving eye and nothing else.
 ///
 /// While the eye moves, the allowed error moves by half octaves, so that a glance changes levels once or
 /// twice; the other levers take what that gives up too much. At rest it moves by sixteenths. Restoring must

@@ -27,7 +27,7 @@ inline constexpr double kNormalBand = 1.645;
 /// How uncertain the coefficients of a model are, in squares of their units. A covariance matrix is kept row
 /// by row, each from its diagonal on.
 struct CostVariance {
-  std::array<double, 10> ground{};  ///< of fixed, perTriangle, perTriangleSide, perGroundMpx
+  std::array<double, 10> ground{};  ///< of fixed, perTriangle, perTriangleSide and perGroundMpx
   std::array<double, 3> weather{};  ///< of perParticles and perWeatherMpx
   double blur = 0;                  ///< of perBlurMpx
 
@@ -36,8 +36,8 @@ struct CostVariance {
 
 /// The model as plain numbers, milliseconds a unit of its quantity. A prediction needs nothing else.
 ///
-/// A triangle costs as such, and it costs a rasteriser as it is long: perTriangleSide is what it costs where
-/// the scene has a million pixels, and falls with the root of the scene's pixels.
+/// A triangle costs perTriangle at any render scale. A software rasteriser also pays for the length of its
+/// edges in pixels: perTriangleSide times the side of the scene, which is the root of its millions of pixels.
 struct CostCoefficients {
   double fixed = 0, perTriangle = 0, perTriangleSide = 0, perGroundMpx = 0;
   double perParticles = 0, perWeatherMpx = 0;
