@@ -25,7 +25,7 @@ struct BenchOptions {
   std::string terrain, output, cases = "none,view_frustum,proposed", size = "1280x720";
   std::vector<std::string> flights, presets{"default"}, settings, sweeps;
   std::size_t frames = 60, repeats = 5;
-  bool json = false;
+  bool whole = false, json = false;
 };
 
 Finding refused(const char* option, const std::string& expected, const std::string& found) {
@@ -60,6 +60,16 @@ std::string nameOf(const std::string& text, const std::vector<Named>& others) {
   return stem.empty() ? text : stem;
 }
 
+/// The states of a trace's own rows, which a reader of flights would drop or mend, over the ground as it was.
+std::vector<AircraftState> statesOf(const std::vector<TraceRow>& trace) {
+  std::vector<AircraftState> states;
+  for (const TraceRow& row : trace) {
+    states.push_back(row.input.state);
+    if (row.input.aboveGround) states.back().aboveGround = row.input.aboveGround;
+  }
+  return states;
+}
+
 bool readFlights(const BenchOptions& arguments, harness::Plan& plan) {
   bool usable = true;
   for (const std::string& file : arguments.flights) {
@@ -69,18 +79,15 @@ bool readFlights(const BenchOptions& arguments, harness::Plan& plan) {
       usable = false;
       continue;
     }
-    harness::Plan::NamedFlight named{nameOf(file, plan.flights), std::move(flight).value(), {}};
+    harness::Plan::NamedFlight named{nameOf(file, plan.flights), std::move(flight).value()};
     if (isTraceFile(file)) {
-      Result<std::vector<TraceRow>> trace = readTrace(file);
+      const Result<std::vector<TraceRow>> trace = readTrace(file);
       report(trace.findings());
       if (!trace) {
         usable = false;
         continue;
       }
-      // The trace's own rows: what a reader of flights drops or mends is decided again as it was.
-      named.flight.states.clear();
-      for (const TraceRow& row : *trace) named.flight.states.push_back(row.input.state);
-      named.trace = std::move(trace).value();
+      named.flight.states = statesOf(*trace);
     }
     plan.flights.push_back(std::move(named));
   }
@@ -126,6 +133,7 @@ int run(const BenchOptions& arguments) {
   plan.version = TRIMTAB_VERSION;
   plan.frames = arguments.frames;
   plan.repeats = arguments.repeats;
+  plan.whole = arguments.whole;
   plan.progress = progressLines();
   Findings faults;
   if (!parseSize(arguments.size, plan.widthPx, plan.heightPx))
@@ -178,6 +186,9 @@ void addBench(CLI::App& app, int& exitCode) {
   command->add_option("--repeats", arguments->repeats, "Timed draws of each frame")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
+  command->add_flag("--whole", arguments->whole,
+                    "Draws every image of presets whose rules or budget depend on earlier images, not only "
+                    "those that may have an effect on a measured frame");
   command->add_flag("--json", arguments->json, "One JSON document on standard output");
   command->add_option("-o,--output", arguments->output, "Folder for the results")->required();
   command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });

@@ -19,8 +19,6 @@ namespace {
 constexpr double kImageS = 1.0 / 60;
 /// How long a moment is led up to: head motion needs ten fast images for its first blur.
 constexpr double kLeadS = 1.5;
-/// Images that are drawn before a moment whose load is asked for: the load is the median of nine.
-constexpr int kDrawnBefore = 10;
 constexpr double kSweepDegPerS = 180, kSweepToDeg = 90;
 constexpr double kFogVisibilityM = 10000;
 
@@ -30,8 +28,7 @@ Attitude sweptHead(double time) {
   return {Degrees{turn < 2 * kSweepToDeg ? turn - kSweepToDeg : 3 * kSweepToDeg - turn}, {}, {}};
 }
 
-Moment momentAt(const Setup& setup, const ValidatedParameters& parameters, double time, bool headSweeps,
-                const DrawImage& draw) {
+Moment momentAt(const Setup& setup, const ValidatedParameters& parameters, double time, bool headSweeps) {
   Session session(parameters);
   session.setGround(setup.terrain);
   const double lead = std::min(kLeadS, time - setup.flight->beginS());
@@ -48,10 +45,8 @@ Moment momentAt(const Setup& setup, const ValidatedParameters& parameters, doubl
       const std::size_t kept = std::min<std::size_t>(before.size(), traces ? kLongestTrace : 1);
       moment.before.assign(before.end() - static_cast<std::ptrdiff_t>(kept), before.end());
       moment.request = std::move(request);
-      moment.signalValues = session.input().signalValues;
       break;
     }
-    if (draw && i <= kDrawnBefore) session.finished(draw(request), state.time);
     before.push_back(std::move(request));
     if (before.size() > kLongestTrace) before.pop_front();
   }
@@ -248,16 +243,14 @@ FrameRequest withLever(FrameRequest request, Lever lever, double value, const Tu
   return request;
 }
 
-std::vector<Moment> momentsOf(const Setup& setup, const ValidatedParameters& parameters, bool headSweeps,
-                              const DrawImage& draw) {
+std::vector<Moment> momentsOf(const Setup& setup, const ValidatedParameters& parameters, bool headSweeps) {
   std::vector<double> over;
   for (const AircraftState& state : setup.flight->states)
     if (scene::liesOver(setup.terrain->info(), state.position)) over.push_back(state.time);
   const std::size_t count = std::min(over.size(), setup.frames);
   std::vector<Moment> moments;
   for (std::size_t k = 0; k < count; ++k)
-    moments.push_back(
-        momentAt(setup, parameters, over[(2 * k + 1) * over.size() / (2 * count)], headSweeps, draw));
+    moments.push_back(momentAt(setup, parameters, over[(2 * k + 1) * over.size() / (2 * count)], headSweeps));
   return moments;
 }
 

@@ -56,17 +56,13 @@ FrameRequest withLever(FrameRequest request, Lever lever, double value, const Tu
 struct Moment {
   FrameRequest request;
   std::vector<FrameRequest> before;
-  SignalValues signalValues;  ///< what the policy was given; unknown without one
 };
-/// How the images that lead up to a moment are drawn.
-using DrawImage = std::function<FrameResult(const FrameRequest&)>;
 
 /// Returns the moments at even rows of the flight above the terrain, each with a session of its own that has
 /// flown the second and a half before it at 60 images a second. With `headSweeps`, the head turns 180 degrees
-/// a second from side to side. With `draw`, the last ten images before a moment are drawn, so that a policy
-/// knows load and triangles. Empty if no row lies above the terrain.
-std::vector<Moment> momentsOf(const Setup& setup, const ValidatedParameters& parameters, bool headSweeps,
-                              const DrawImage& draw = {});
+/// a second from side to side. No image is drawn, so a policy knows neither load nor triangles. Empty if no
+/// row lies above the terrain.
+std::vector<Moment> momentsOf(const Setup& setup, const ValidatedParameters& parameters, bool headSweeps);
 
 /// Measures all levers over `setup.frames` frames of the flight. Each frame is drawn at both ends in turns,
 /// `setup.repeats` times. A lever that has nothing to do in this flight is measured under the condition that

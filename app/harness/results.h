@@ -24,7 +24,8 @@ struct UnitName {
   friend bool operator==(const UnitName&, const UnitName&) = default;
 };
 
-/// One frame of a unit. `cost` has the medians of its repeats; errors and counts are equal in all repeats.
+/// One frame of a unit. `cost` has the medians of its repeats. Errors and counts are equal in all repeats; but
+/// if the preset decides by time, they are means of the repeats, and largest errors the largest of them.
 struct MeasuredFrame {
   std::size_t row = 0;  ///< of the flight
   double timeS = 0;     ///< of the flight's clock
@@ -59,6 +60,8 @@ struct Unit {
   std::vector<WorstFrame> worst;
   std::vector<SkipSaving> skips;
   std::size_t framesDecided = 0;  ///< rows of the flight that were decided
+  /// Keys of the signals that the preset's rules ask for and that nobody knew in any of the frames.
+  std::vector<std::string> unknownSignals;
 };
 
 /// Frame times of two units of one flight, measured frame by frame in turn.

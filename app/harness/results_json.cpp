@@ -73,6 +73,7 @@ Json unitJson(const Unit& unit, double budgetMs) {
   Json json = nameJson(unit.name);
   json["summary"] = summaryJson(answerRow(unit, budgetMs));
   json["frames_decided"] = unit.framesDecided;
+  json["unknown_signals"] = unit.unknownSignals;
   json["worst"] = Json::array();
   for (const WorstFrame& w : unit.worst)
     json["worst"].push_back({{"frame", w.frame},
@@ -192,6 +193,11 @@ Unit readUnit(Reader& reader, const Json& json, const std::string& place) {
   Unit unit;
   unit.name = readName(reader, json, place);
   unit.framesDecided = reader.whole(Reader::member(json, "frames_decided"), place + ".frames_decided");
+  // Results of before signals were fed back have no list of them.
+  if (const Json& unknown = Reader::member(json, "unknown_signals"); !unknown.is_discarded())
+    reader.list(unknown, place + ".unknown_signals", [&](const Json& key, const std::string& at) {
+      unit.unknownSignals.push_back(reader.text(key, at));
+    });
   std::vector<std::string> columns;
   reader.list(Reader::member(json, "columns"), place + ".columns",
               [&](const Json& name, const std::string& at) { columns.push_back(reader.text(name, at)); });

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/experiment/stage.h"
-#include "decided_frames.h"
+#include "frame_meter.h"
 #include "report.h"
 #include "skips.h"
 #include "store.h"
@@ -26,42 +26,24 @@ using experiment::quantileOf;
 using experiment::Stage;
 using Clock = std::chrono::steady_clock;
 
-/// Draws a frame whose parts are told apart by waiting: they cost time, so these are not the timed ones.
-constexpr std::size_t kPartDraws = 3;
 /// Pairs of a frame and the one before it that the savings of skips are measured on.
 constexpr std::size_t kSkipFrames = 8;
 /// Draws that a frame's errors and its skips' savings take besides the timed ones; only for the time left.
 constexpr std::size_t kErrorDraws = 12, kSkipDraws = 60;
 
-/// One preset in one case, with the frames of the flight in hand.
-struct Runner {
-  UnitName name;
-  std::vector<DecidedFrame> frames;
-};
-
-/// What was measured of one frame.
-std::vector<double> ofStage(const std::vector<FrameCost>& costs, CostField stage) {
-  std::vector<double> values;
-  for (const FrameCost& cost : costs)
-    if (std::isfinite(cost.*stage)) values.push_back(cost.*stage);
-  return values;
+/// Keeps the keys that the frame's part has as well.
+void keepCommon(std::vector<std::string>& keys, const std::vector<std::string>& others) {
+  std::erase_if(keys, [&others](const std::string& key) {
+    return std::find(others.begin(), others.end(), key) == others.end();
+  });
 }
 
-FrameCost medians(const std::vector<FrameCost>& costs) {
-  FrameCost median;
-  for (const CostStage& stage : kCostStages) median.*stage.ms = quantileOf(ofStage(costs, stage.ms), 0.5);
-  return median;
-}
-
-TraceCounts countsOf(const VisibleSet& visible) {
-  return {visible.triangles, visible.vertices,         visible.tiles.size(), visible.outsideFrustum,
-          visible.occluded,  visible.beyondVisibility, visible.backFacing};
-}
-
-/// What is drawn must not depend on what was drawn before, nor on where a run was taken up again.
-FrameRequest alone(FrameRequest request) {
-  request.skips.littleHidden = false;
-  return request;
+Finding unknownFinding(const UnitName& unit, const std::string& key) {
+  const std::optional<Signal> signal = signalNamed(key);
+  return {Severity::warning, unit.flight + ", " + unit.preset + ", " + unit.method, key,
+          "a signal that is known in at least one measured frame, because rules ask for it",
+          "none, so that these rules never fired: it is unknown if " +
+              std::string(signal ? rowOf(*signal).unknown : std::string_view("nobody derives it"))};
 }
 
 std::string aboutText(double seconds) {
@@ -82,14 +64,20 @@ class Run {
 
  private:
   Findings measureFlight(std::size_t flight, Results& results);
-  std::vector<Unit> measureFrame(const std::vector<Runner>& runners, std::size_t index);
-  Findings keepWorst(const std::vector<Runner>& runners, std::size_t unitsBefore, std::vector<Unit>& units);
-  Findings measureSkipsOf(std::size_t flight, const std::vector<Runner>& runners, std::vector<Unit>& units);
-  std::vector<Runner> runnersOf(const Plan::NamedFlight& flight, const std::vector<std::size_t>& rows);
+  Findings keepWorst(std::size_t flight, std::vector<Runner>& runners, std::size_t unitsBefore,
+                     std::vector<Unit>& units);
+  Findings measureSkipsOf(std::size_t flight, std::vector<Runner>& runners, std::vector<Unit>& units);
+  std::vector<Runner> runnersOf(const Plan::NamedFlight& flight) const;
+  bool fly(std::size_t flight, std::vector<Runner>& runners);
+  std::size_t imagesOf(std::size_t flight, const std::vector<Runner>& runners) const;
+  std::vector<std::string> notesOnFeedback() const;
   bool goOn();
   void finished(std::size_t draws, bool byThisRun);
   Finding stopped() const;
   std::size_t units() const { return plan_.presets.size() * plan_.cases.size(); }
+  Flying flying() const {
+    return {plan_.terrain, plan_.widthPx, plan_.heightPx, plan_.whole, plan_.repeats, {}};
+  }
   std::size_t drawsOfFrame() const { return units() * (kErrorDraws + 2 * plan_.repeats); }
   std::size_t drawsOfSkips() const { return plan_.skips ? kSkipDraws * plan_.repeats : 0; }
 
@@ -128,7 +116,7 @@ Finding Run::stopped() const {
               " frames are there, and the same command goes on from them"};
 }
 
-std::vector<Runner> Run::runnersOf(const Plan::NamedFlight& flight, const std::vector<std::size_t>& rows) {
+std::vector<Runner> Run::runnersOf(const Plan::NamedFlight& flight) const {
   std::vector<Runner> runners;
   for (const auto& preset : plan_.presets)
     for (const CullingCase method : plan_.cases) {
@@ -137,80 +125,50 @@ std::vector<Runner> Run::runnersOf(const Plan::NamedFlight& flight, const std::v
       const auto valid = validate(parameters);
       // The case is free of rules; a set that was valid stays so.
       if (!valid) continue;
-      runners.push_back({{flight.name, preset.name, std::string(caseName(method))},
-                         decideFrames(plan_, flight, *valid, rows)});
+      runners.push_back({{flight.name, preset.name, std::string(caseName(method))}, *valid, {}});
     }
   return runners;
 }
 
-std::vector<Unit> Run::measureFrame(const std::vector<Runner>& runners, std::size_t index) {
-  std::vector<Unit> units;
-  for (const Runner& runner : runners) {
-    if (!goOn()) return {};
-    const DecidedFrame& frame = runner.frames[index];
-    MeasuredFrame measured;
-    measured.row = frame.row;
-    measured.timeS = frame.timeS;
-    measured.error = meter_.measure(frame.request, frame.before, nullptr);
-    // What the step from the row before pages in, with nothing there but that row's.
-    stage_.setTerrain(plan_.terrain);
-    if (!frame.before.empty()) stage_.draw(frame.before.back());
-    const FrameResult first = stage_.draw(alone(frame.request));
-    measured.counts = countsOf(first.visible);
-    measured.cost.page = first.cost.page;
-    Unit unit;
-    unit.name = runner.name;
-    unit.frames.push_back(std::move(measured));
-    units.push_back(std::move(unit));
-  }
-  const std::size_t n = runners.size();
-  std::vector<std::vector<FrameCost>> costs(n), parts(n);
-  // A frame that is drawn again finds what was made for the eye's place; after the one before it, it does
-  // the work that a flight asks of it.
-  const auto inFlight = [this](const DecidedFrame& frame, bool separateStages) {
-    if (!frame.before.empty()) stage_.draw(frame.before.back());
-    FrameRequest request = frame.request;
-    request.separateStages = separateStages;
-    return stage_.draw(request).cost;
-  };
-  for (const Runner& runner : runners) inFlight(runner.frames[index], false);
-  for (std::size_t repeat = 0; repeat < plan_.repeats; ++repeat)
-    for (std::size_t i = 0; i < n; ++i) {
-      // Nobody is always first.
-      const std::size_t u = (i + repeat) % n;
-      costs[u].push_back(inFlight(runners[u].frames[index], false));
-    }
-  for (std::size_t u = 0; u < n; ++u) {
-    const DecidedFrame& frame = runners[u].frames[index];
-    MeasuredFrame& measured = units[u].frames.front();
-    const double page = measured.cost.page;
-    for (FrameCost& cost : costs[u]) {
-      cost.decide = frame.decideMs;
-      cost.total += frame.decideMs;
-      measured.repeatsMs.push_back(cost.total);
-    }
-    measured.cost = medians(costs[u]);
-    measured.cost.page = page;
-    for (std::size_t i = 0; i < std::min(plan_.repeats, kPartDraws); ++i)
-      parts[u].push_back(inFlight(frame, true));
-    const FrameCost ofParts = medians(parts[u]);
-    for (const CostStage& stage : kCostStages)
-      if (stage.kind == StageKind::part && std::isnan(measured.cost.*stage.ms))
-        measured.cost.*stage.ms = ofParts.*stage.ms;
-  }
-  return units;
+std::size_t Run::imagesOf(std::size_t flight, const std::vector<Runner>& runners) const {
+  std::size_t images = 0;
+  for (const Runner& runner : runners)
+    images += imagesToFly(flying(), plan_.flights[flight].flight, runner.parameters, rows_[flight]);
+  return images;
 }
 
-Findings Run::keepWorst(const std::vector<Runner>& runners, std::size_t unitsBefore,
+/// Flies all presets, unless they have flown already; false if it was cancelled.
+bool Run::fly(std::size_t flight, std::vector<Runner>& runners) {
+  const auto& named = plan_.flights[flight];
+  stage_.setTerrain(plan_.terrain);
+  for (Runner& runner : runners) {
+    if (!runner.frames.empty()) continue;
+    doing_ = "flying " + named.name + ", " + runner.name.preset + ", " + runner.name.method;
+    if (!goOn()) return false;
+    Flying how = flying();
+    how.goOn = [this] {
+      finished(1, true);
+      return goOn();
+    };
+    auto frames = flyFrames(stage_, how, named.flight, runner.parameters, rows_[flight]);
+    if (!frames) return false;
+    runner.frames = *std::move(frames);
+  }
+  return true;
+}
+
+Findings Run::keepWorst(std::size_t flight, std::vector<Runner>& runners, std::size_t unitsBefore,
                         std::vector<Unit>& units) {
   for (std::size_t u = 0; u < units.size(); ++u) {
     units[u].worst = worstFrames(units[u], unitsBefore + u + 1, plan_.worst);
     for (const WorstFrame& worst : units[u].worst) {
+      if (havePictures(worst, store_.folder())) continue;
+      if (!fly(flight, runners)) return {stopped()};
       doing_ = "pictures of " + units[u].name.flight + ", " + units[u].name.preset;
       if (!goOn()) return {stopped()};
-      const DecidedFrame& frame = runners[u].frames[worst.frame];
+      const FlownFrame::Image& image = runners[u].frames[worst.frame].ofRepeat(0);
       scene::ErrorPictures pictures;
-      meter_.measure(frame.request, frame.before, &pictures);
+      meter_.measure(image.request, image.before, &pictures);
       if (const auto written = writePictures(worst, pictures, store_.folder()); !written)
         return store_.needs(written.findings(), pictures.ours.size());
     }
@@ -219,13 +177,13 @@ Findings Run::keepWorst(const std::vector<Runner>& runners, std::size_t unitsBef
 }
 
 /// Each frame after the one before it, because what a frame may leave out the one before it decides.
-Findings Run::measureSkipsOf(std::size_t flight, const std::vector<Runner>& runners,
-                             std::vector<Unit>& units) {
+Findings Run::measureSkipsOf(std::size_t flight, std::vector<Runner>& runners, std::vector<Unit>& units) {
   std::optional<std::vector<Unit>> held = store_.skips(flight);
   if (held && held->size() == units.size()) {
     finished(drawsOfSkips() * units.size(), false);
   } else {
     held.emplace();
+    if (!fly(flight, runners)) return {stopped()};
     const auto draw = [this](const FrameRequest& request) { return stage_.draw(request); };
     stage_.setTerrain(plan_.terrain);
     for (const Runner& runner : runners) {
@@ -234,9 +192,10 @@ Findings Run::measureSkipsOf(std::size_t flight, const std::vector<Runner>& runn
       std::vector<FrameRequest> frames;
       const std::size_t count = std::min(kSkipFrames, runner.frames.size());
       for (std::size_t k = 0; k < count; ++k) {
-        const DecidedFrame& frame = runner.frames[(2 * k + 1) * runner.frames.size() / (2 * count)];
-        frames.push_back(frame.before.empty() ? frame.request : frame.before.back());
-        frames.push_back(frame.request);
+        const FlownFrame::Image& image =
+            runner.frames[(2 * k + 1) * runner.frames.size() / (2 * count)].ofRepeat(0);
+        frames.push_back(image.before.empty() ? image.request : image.before.back());
+        frames.push_back(image.request);
       }
       Unit unit;
       unit.name = runner.name;
@@ -255,7 +214,7 @@ Findings Run::measureSkipsOf(std::size_t flight, const std::vector<Runner>& runn
 Findings Run::measureFlight(std::size_t flight, Results& results) {
   const auto& named = plan_.flights[flight];
   const std::vector<std::size_t>& rows = rows_[flight];
-  const std::vector<Runner> runners = runnersOf(named, rows);
+  std::vector<Runner> runners = runnersOf(named);
   std::vector<Unit> units;
   for (const Runner& runner : runners) {
     Unit unit;
@@ -264,27 +223,61 @@ Findings Run::measureFlight(std::size_t flight, Results& results) {
     units.push_back(std::move(unit));
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    doing_ = named.name + ", frame " + std::to_string(i + 1) + " of " + std::to_string(rows.size());
+    const std::string doing =
+        named.name + ", frame " + std::to_string(i + 1) + " of " + std::to_string(rows.size());
+    doing_ = doing;
     std::optional<std::vector<Unit>> part = store_.frame(flight, rows[i]);
     const bool whole =
         part && part->size() == units.size() &&
         std::all_of(part->begin(), part->end(), [](const Unit& u) { return u.frames.size() == 1; });
     if (!whole) {
-      part = measureFrame(runners, i);
-      if (cancelled_) return {stopped()};
+      if (!fly(flight, runners)) return {stopped()};
+      doing_ = doing;
+      part = measureFrame(stage_, meter_, plan_, runners, i, [this] { return goOn(); });
+      if (!part) return {stopped()};
       if (const auto written = store_.writeFrame(flight, rows[i], *part); !written) return written.findings();
     }
-    for (std::size_t u = 0; u < units.size(); ++u)
-      units[u].frames.push_back(std::move((*part)[u].frames.front()));
+    for (std::size_t u = 0; u < units.size(); ++u) {
+      Unit &unit = units[u], &more = (*part)[u];
+      unit.frames.push_back(std::move(more.frames.front()));
+      if (i == 0)
+        unit.unknownSignals = std::move(more.unknownSignals);
+      else
+        keepCommon(unit.unknownSignals, more.unknownSignals);
+    }
     ++framesDone_;
     finished(drawsOfFrame(), !whole);
     if (!goOn()) return {stopped()};
   }
-  if (Findings failed = keepWorst(runners, results.units.size(), units); !failed.empty()) return failed;
+  if (Findings failed = keepWorst(flight, runners, results.units.size(), units); !failed.empty())
+    return failed;
   if (plan_.skips)
     if (Findings failed = measureSkipsOf(flight, runners, units); !failed.empty()) return failed;
+  if (runners.front().frames.empty()) finished(imagesOf(flight, runners), false);
   for (Unit& unit : units) results.units.push_back(std::move(unit));
   return {};
+}
+
+/// Which presets were given what of their own images.
+std::vector<std::string> Run::notesOnFeedback() const {
+  std::vector<std::string> notes;
+  for (const auto& preset : plan_.presets) {
+    const Feedback feedback = feedbackOf(preset.parameters);
+    if (!feedback.any()) continue;
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.1f s", feedback.rememberedS);
+    std::string note = preset.name + " decides by its own images: " +
+                       (plan_.whole ? "all of them are drawn."
+                                    : std::string("those of ") + seconds + ", and at least " +
+                                          std::to_string(feedback.rememberedImages) +
+                                          ", are drawn before each measured one.");
+    if (feedback.times)
+      note +=
+          " Time is among what it decides by, so that each repeat flies anew. Its errors and counts are "
+          "means of the repeats, and two runs differ.";
+    notes.push_back(std::move(note));
+  }
+  return notes;
 }
 
 Result<Results> Run::all() {
@@ -297,12 +290,14 @@ Result<Results> Run::all() {
   results.repeats = plan_.repeats;
   results.budgetMs = plan_.presets.front().parameters->measure.budget.value();
   results.notes = {
-      "Time is stepped from the flight's rows, pages are waited for and no measured cost reaches a decision: "
-      "errors and counts repeat exactly.",
+      "Each preset decides every row of a flight in order. Time is stepped from the rows and pages are "
+      "waited "
+      "for: errors and counts repeat exactly where no decision depends on measured time.",
       "Frame times are medians of " + std::to_string(plan_.repeats) +
           (plan_.repeats == 1 ? " draw" : " draws") +
           " of a frame after the row before it, with its pages there; all presets and cases take turns "
           "frame by frame. Page is what the step from the row before would add."};
+  for (std::string& note : notesOnFeedback()) results.notes.push_back(std::move(note));
   const TerrainForm form = plan_.presets.front().parameters->staticLod.terrain;
   for (const auto& preset : plan_.presets)
     if (preset.parameters->staticLod.terrain != form && plan_.terrain->staticLod())
@@ -317,19 +312,24 @@ Result<Results> Run::all() {
                         "none of its " + std::to_string(flight.flight.states.size()) + " rows lies over it"});
     frames_ += rows_.back().size();
     work_ += rows_.back().size() * drawsOfFrame() + units() * drawsOfSkips();
-    if (!flight.trace.empty())
-      results.notes.push_back(flight.name + " is a trace: its recorded cost is replayed.");
   }
   if (!failed.empty()) return failed;
+  for (std::size_t flight = 0; flight < plan_.flights.size(); ++flight)
+    work_ += imagesOf(flight, runnersOf(plan_.flights[flight]));
   for (std::size_t flight = 0; flight < plan_.flights.size(); ++flight)
     if (failed = measureFlight(flight, results); !failed.empty()) return failed;
   // Images of what the terrain did not hold are no measurement.
   if (failed = plan_.terrain->damage(); !failed.empty()) return failed;
+  Findings unknown;
+  for (const Unit& unit : results.units)
+    for (const std::string& key : unit.unknownSignals) unknown.push_back(unknownFinding(unit.name, key));
+  for (const Finding& finding : unknown)
+    results.notes.push_back(finding.where + ": nobody knew the signal " + finding.key + "; " + finding.found);
   results.comparisons = compareUnits(results.units);
   if (const auto done = store_.write("frames.csv", toCsv(results)); !done) return done.findings();
   if (const auto done = store_.write("results.json", toJson(results)); !done) return done.findings();
   if (const auto done = writeReport(results, store_.folder()); !done) return done.findings();
-  return results;
+  return {std::move(results), std::move(unknown)};
 }
 
 Findings faultsOf(const Plan& plan) {
@@ -346,10 +346,6 @@ Findings faultsOf(const Plan& plan) {
   need(plan.repeats > 0, "repeats", "at least one", "0");
   need(plan.widthPx > 0 && plan.heightPx > 0, "size", "pixels both ways",
        std::to_string(plan.widthPx) + "x" + std::to_string(plan.heightPx));
-  for (const auto& flight : plan.flights)
-    need(flight.trace.empty() || flight.trace.size() == flight.flight.states.size(), "trace",
-         "a row for each of the flight's " + std::to_string(flight.flight.states.size()),
-         std::to_string(flight.trace.size()));
   // Names tell units apart.
   const auto unique = [&need](const auto& list, const char* what, const auto& nameOf) {
     for (auto a = list.begin(); a != list.end(); ++a)

@@ -8,7 +8,6 @@
 
 #include "results.h"
 #include "trimtab/host/flight.h"
-#include "trimtab/measure/trace.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/terrain/format/database.h"
 
@@ -20,9 +19,6 @@ struct Plan {
   struct NamedFlight {
     std::string name;
     Flight flight;
-    /// If the flight is a trace, its rows: decisions see the cost and heights that they recorded. Otherwise
-    /// empty, and decisions see no cost, because they must not depend on this machine.
-    std::vector<TraceRow> trace = {};
   };
   std::vector<NamedFlight> flights;
   struct NamedPreset {
@@ -34,6 +30,9 @@ struct Plan {
   int widthPx = 1280, heightPx = 720;
   std::size_t frames = 60;  ///< of each flight, evenly spread over its rows above the terrain
   std::size_t repeats = 5;  ///< timed draws of a frame
+  /// Whether presets whose decisions depend on their own images draw every row of a flight, instead of those
+  /// rows that may have an effect on a sampled frame.
+  bool whole = false;
   std::size_t worst = 3;    ///< most worst frames kept of each unit
   bool skips = true;        ///< whether to measure what skipped work saved
   std::string version;      ///< of the program
@@ -44,6 +43,9 @@ struct Plan {
 /// Returns the name of a case in files and on the command line.
 std::string_view caseName(CullingCase method);
 
+/// Measures every preset as it is flown: one session decides all rows of a flight, and is given the triangles
+/// and times of its own images if its policy, its head motion or its budget depends on them (flyFrames).
+///
 /// Measures everything that `folder` does not hold yet and writes results.json, frames.csv, report.html and
 /// the images of the worst frames there. Each sampled frame of a flight, in all presets and cases, is written
 /// atomically below parts/ once it is complete, so that a stopped run continues where it was. Fails if the

@@ -5,9 +5,9 @@
 #include <system_error>
 
 #include "trimtab/preset/file_io.h"
-#include "trimtab/units/number.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/sha256.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::harness {
 namespace {
@@ -28,13 +28,13 @@ std::string flightDigest(const Plan::NamedFlight& flight) {
   std::string text = flightCsv(flight.flight);
   // What a flight's file has no columns for.
   for (const AircraftState& state : flight.flight.states) {
+    if (state.aboveGround) text += numberText(state.aboveGround->value()) + ' ';
     if (state.airspeed) text += numberText(state.airspeed->value()) + ' ';
     if (state.velocity)
       for (const MetresPerSecond v : {state.velocity->north, state.velocity->east, state.velocity->down})
         text += numberText(v.value()) + ' ';
     text += '\n';
   }
-  for (const TraceRow& row : flight.trace) appendTraceRow(text, row);
   return digest(text);
 }
 
@@ -69,6 +69,7 @@ Json identity(const Plan& plan, const std::string& machine) {
   json["size"] = std::to_string(plan.widthPx) + "x" + std::to_string(plan.heightPx);
   json["frames"] = std::to_string(plan.frames);
   json["repeats"] = std::to_string(plan.repeats);
+  json["whole"] = plan.whole ? "every row drawn" : "rows drawn before sampled frames";
   json["worst"] = std::to_string(plan.worst);
   json["skips"] = plan.skips ? "measured" : "not measured";
   return json;

@@ -55,6 +55,13 @@ void namePictures(WorstFrame& worst, const Unit& unit, std::size_t number) {
   worst.difference = name + "-difference.png";
 }
 
+bool havePictures(const WorstFrame& worst, const std::filesystem::path& folder) {
+  std::error_code absent;
+  for (const std::string& name : {worst.reference, worst.ours, worst.difference})
+    if (!std::filesystem::exists(folder / name, absent)) return false;
+  return true;
+}
+
 Result<Done> writePictures(const WorstFrame& worst, const scene::ErrorPictures& pictures,
                            const std::filesystem::path& folder) {
   const auto write = [&](const std::string& name, std::span<const std::uint8_t> rgba) {

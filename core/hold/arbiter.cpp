@@ -280,6 +280,10 @@ bool isNumber(const HoldGiven& g) {
 
 }  // namespace
 
+double rememberedMs() {
+  return kMovingCalmMs + kLastsMs;
+}
+
 double errorAtPlace(std::uint8_t place, double askedPx) {
   return place == 0 ? askedPx : kFirstErrorPx * std::exp2((place - 1) / double{kPlacesPerOctave});
 }

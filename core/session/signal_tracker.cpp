@@ -108,7 +108,7 @@ void SignalTracker::finished(double workMs, double budgetMs, std::uint64_t trian
     values_[Signal::triangles] = counted;
   if (!(workMs > 0 && budgetMs > 0 && std::isfinite(workMs) && std::isfinite(budgetMs))) return;
   loads_[loadCount_++ % loads_.size()] = workMs / budgetMs;
-  std::array<double, 9> sorted = loads_;
+  std::array<double, kLoadImages> sorted = loads_;
   const std::size_t count = std::min(loadCount_, sorted.size());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(count));

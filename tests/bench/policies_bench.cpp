@@ -11,6 +11,7 @@
 
 #include "app/experiment/leverage.h"
 #include "app/experiment/stage.h"
+#include "app/harness/flown_frames.h"
 #include "bench_scene.h"
 #include "policy_flights.h"
 #include "row.h"
@@ -26,7 +27,7 @@
 namespace trimtab::bench {
 namespace {
 
-using experiment::Moment;
+using harness::FlownFrame;
 
 constexpr int kWidth = 960, kHeight = 540;
 
@@ -109,36 +110,35 @@ class Comparison {
   }
 
   /// Returns the policy's frames and, in the order of `grid`, those of the settings; nothing without GL.
-  std::vector<Drawn> draw(const CompiledPolicy& policy, const std::vector<Fixed>& grid) {
+  std::vector<Drawn> draw(const std::vector<Fixed>& grid) {
     auto stage = experiment::Stage::open(setup_);
     scene::ErrorMeter meter;
     if (!stage || !meter.initialize().usable) return {};
     meter.setTerrain(setup_.terrain);
-    experiment::DrawImage drawImage;
-    if (policy.asks(Signal::load) || policy.asks(Signal::triangles))
-      drawImage = [&](const FrameRequest& request) { return (*stage)->draw(request); };
     TuningParameters plain = parameters_;
     plain.policy.enabled = false;
-    const auto decided = experiment::momentsOf(setup_, *validate(parameters_), false, drawImage);
-    const auto bare = experiment::momentsOf(setup_, *validate(plain), false);
+    const Flight& flight = *setup_.flight;
+    const auto rows = harness::sampledRows(flight, *setup_.terrain, setup_.frames);
+    const harness::Flying flying{setup_.terrain, kWidth, kHeight, false, 1, {}};
+    const auto decided = *harness::flyFrames(**stage, flying, flight, *validate(parameters_), rows);
+    const auto bare = *harness::flyFrames(**stage, flying, flight, *validate(plain), rows);
     std::vector<Drawn> drawn(grid.size() + 1);
     for (std::size_t i = 0; i < bare.size(); ++i) {
-      const auto at = [&](std::size_t k, const Moment& ofPolicy, const Moment& ofFixed) {
-        Moment moment = k == 0 ? ofPolicy : ofFixed;
-        if (k == 0) return moment;
-        moment.request = set(std::move(moment.request), grid[k - 1], plain);
-        for (FrameRequest& before : moment.before) before = set(std::move(before), grid[k - 1], plain);
-        return moment;
+      const auto at = [&](const Fixed& fixed) {
+        FlownFrame::Image image = bare[i].ofRepeat(0);
+        image.request = set(std::move(image.request), fixed, plain);
+        for (FrameRequest& before : image.before) before = set(std::move(before), fixed, plain);
+        return image;
       };
-      std::vector<Moment> moments;
-      for (std::size_t k = 0; k < drawn.size(); ++k) moments.push_back(at(k, decided[i], bare[i]));
+      std::vector<FlownFrame::Image> images{decided[i].ofRepeat(0)};
+      for (const Fixed& fixed : grid) images.push_back(at(fixed));
       for (std::size_t k = 0; k < drawn.size(); ++k) {
-        const Moment& m = moments[k];
+        const FlownFrame::Image& m = images[k];
         const std::span<const FrameRequest> traces =
             m.before.size() > 1 ? std::span<const FrameRequest>(m.before) : std::span<const FrameRequest>();
         drawn[k].flip.push_back(meter.measure(m.request, traces, nullptr).flip);
       }
-      time(**stage, moments, i, drawn);
+      time(**stage, images, i, drawn);
     }
     meter.release();
     return drawn;
@@ -147,18 +147,17 @@ class Comparison {
  private:
   /// Each draw follows one of another setting, so that all do the work of a new frame; nobody is always
   /// first. What was blurred before is drawn before.
-  void time(experiment::Stage& stage, const std::vector<Moment>& moments, std::size_t frame,
+  void time(experiment::Stage& stage, const std::vector<FlownFrame::Image>& images, std::size_t frame,
             std::vector<Drawn>& drawn) const {
-    std::vector<std::vector<double>> ms(moments.size());
+    std::vector<std::vector<double>> ms(images.size());
     for (int repeat = -1; repeat < repeats_; ++repeat)
-      for (std::size_t turn = 0; turn < moments.size(); ++turn) {
-        const std::size_t k = (turn + frame + static_cast<std::size_t>(repeat + 1)) % moments.size();
-        if (moments[k].before.size() > 1) stage.draw(moments[k].before.back());
-        const double total = stage.draw(moments[k].request).cost.total;
+      for (std::size_t turn = 0; turn < images.size(); ++turn) {
+        const std::size_t k = (turn + frame + static_cast<std::size_t>(repeat + 1)) % images.size();
+        if (images[k].before.size() > 1) stage.draw(images[k].before.back());
+        const double total = stage.draw(images[k].request).cost.total;
         if (repeat >= 0) ms[k].push_back(total);
       }
-    for (std::size_t k = 0; k < moments.size(); ++k)
-      drawn[k].ms.push_back(experiment::quantileOf(ms[k], 0.5));
+    for (std::size_t k = 0; k < images.size(); ++k) drawn[k].ms.push_back(experiment::quantileOf(ms[k], 0.5));
   }
 
   TuningParameters parameters_;
@@ -295,7 +294,7 @@ void compare(Report& report, const std::string& name) {
   std::vector<Held> flips, times, defaults;
   std::vector<std::string> names;
   for (const Scene& scene : scenesFor(name)) {
-    const auto drawn = Comparison(scene, preset->parameters, report.quick()).draw(policy, grid);
+    const auto drawn = Comparison(scene, preset->parameters, report.quick()).draw(grid);
     if (drawn.empty()) continue;
     names.push_back(scene.name);
     const auto flip = [](const Drawn& d) { return d.meanFlip(); };

@@ -35,7 +35,7 @@ namespace {
 
 const QString kPresets = QStringLiteral("bench/presets"), kCaseNames = QStringLiteral("bench/cases"),
               kSize = QStringLiteral("bench/size"), kFrames = QStringLiteral("bench/frames"),
-              kRepeats = QStringLiteral("bench/repeats");
+              kRepeats = QStringLiteral("bench/repeats"), kWhole = QStringLiteral("bench/whole");
 
 BenchChoice lastChoice() {
   const QSettings settings;
@@ -45,6 +45,7 @@ BenchChoice lastChoice() {
   last.size = settings.value(kSize, last.size).toString();
   last.frames = settings.value(kFrames, last.frames).toInt();
   last.repeats = settings.value(kRepeats, last.repeats).toInt();
+  last.whole = settings.value(kWhole, last.whole).toBool();
   return last;
 }
 
@@ -57,6 +58,7 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
       folder_(new QLineEdit(folder, this)),
       frames_(new QSpinBox(this)),
       repeats_(new QSpinBox(this)),
+      whole_(new QCheckBox(tr("Draw &every image of the flight"), this)),
       sweep_(new SweepChoice(this)),
       amount_(new QLabel(this)) {
   setWindowTitle(tr("Measure presets along the flight"));
@@ -110,6 +112,10 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
   repeats_->setRange(1, 1000);
   repeats_->setValue(last.repeats);
   repeats_->setToolTip(tr("How often each frame is drawn and timed; the median counts"));
+  whole_->setChecked(last.whole);
+  whole_->setToolTip(
+      tr("A preset whose rules or budget depend on its own images draws those that may have an effect on a "
+         "measured frame; with this it draws all of them, which takes longer"));
   folder_->setToolTip(tr("To resume a measurement that was stopped, name its folder again"));
   auto* browse = new QPushButton(tr("&Browse..."), this);
   connect(browse, &QPushButton::clicked, this, [this] {
@@ -128,6 +134,7 @@ BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
   form->addRow(tr("&Size (px)"), size_);
   form->addRow(tr("&Frames"), frames_);
   form->addRow(tr("&Repeats"), repeats_);
+  form->addRow({}, whole_);
   form->addRow(tr("Fol&der"), folderRow);
   qobject_cast<QLabel*>(form->labelForField(folderRow))->setBuddy(folder_);
 
@@ -167,6 +174,7 @@ void BenchDialog::accept() {
   settings.setValue(kSize, chosen.size);
   settings.setValue(kFrames, chosen.frames);
   settings.setValue(kRepeats, chosen.repeats);
+  settings.setValue(kWhole, chosen.whole);
   QDialog::accept();
 }
 
@@ -182,6 +190,7 @@ BenchChoice BenchDialog::choice() const {
   choice.size = size_->text();
   choice.frames = frames_->value();
   choice.repeats = repeats_->value();
+  choice.whole = whole_->isChecked();
   choice.sweeps = sweep_->sweeps();
   choice.folder = folder_->text().trimmed();
   return choice;

@@ -24,6 +24,7 @@ struct BenchChoice {
   QStringList cases{QStringLiteral("view_frustum"), QStringLiteral("proposed")};
   QString size = QStringLiteral("1280x720");
   int frames = 60, repeats = 5;
+  bool whole = false;  ///< draws every image of presets that decide by their own images
   QStringList sweeps;  ///< "KEY=A,B,...": each preset is measured at each of these values; at most two
   QString folder;      ///< for the results; a measurement that was stopped there is resumed
 };
@@ -45,6 +46,7 @@ class BenchDialog : public QDialog {
   std::array<QCheckBox*, 3> cases_;
   QLineEdit *size_, *folder_;
   QSpinBox *frames_, *repeats_;
+  QCheckBox* whole_;
   SweepChoice* sweep_;
   QLabel* amount_;
   QPushButton* measure_;

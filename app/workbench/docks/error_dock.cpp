@@ -352,6 +352,7 @@ void ErrorDock::measure(const BenchChoice& choice) {
             << QStringLiteral("--frames") << QString::number(choice.frames)      //
             << QStringLiteral("--repeats") << QString::number(choice.repeats)    //
             << QStringLiteral("-o") << choice.folder;
+  if (choice.whole) arguments << QStringLiteral("--whole");
   measuring_ = choice.folder + QStringLiteral("/results.json");
   setRunning(true);
   status_->setText(tr("Starting…"));

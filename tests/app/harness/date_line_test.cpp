@@ -4,7 +4,7 @@
 #include <set>
 
 #include "app/experiment/stage.h"
-#include "app/harness/decided_frames.h"
+#include "app/harness/flown_frames.h"
 #include "tests/core/scene/terrain/synthetic_terrain.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/scene/data_extent.h"

@@ -193,7 +193,7 @@ TEST(Comparison, pairsFramesAndCancelsWhatTheirDrawsShare) {
   for (const char* flight : {"f", "g"})
     for (const char* preset : {"p", "q"})
       for (const char* method : {"none", "view_frustum"})
-        units.push_back({{flight, preset, method}, {}, {}, {}, 0});
+        units.push_back({{flight, preset, method}, {}, {}, {}, 0, {}});
   // q takes 0.8 of p, view_frustum 0.5 of none, and the machine swings by the factor e from draw to draw.
   for (std::size_t row = 0; row < 12; ++row) {
     for (Unit& unit : units) unit.frames.push_back({row, 0, {}, {}, {}, {}});

@@ -1,5 +1,3 @@
-#include "app/harness/run.h"
-
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -8,7 +6,7 @@
 #include <set>
 
 #include "app/harness/heat_colour.h"
-#include "tests/core/scene/scene_test.h"
+#include "mountain_plan.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/session/session.h"
 
@@ -16,49 +14,6 @@ namespace trimtab::harness {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// 12 km of mountains: a synthetic tile takes its time to make, and runs make many.
-std::shared_ptr<const test::SyntheticTerrain> hills() {
-  static const auto terrain = std::make_shared<const test::SyntheticTerrain>(
-      4, 1.0 / 1200, GeodeticPosition{Degrees{36.4}, Degrees{128.1}, Metres{0}}, test::mountains);
-  return terrain;
-}
-
-/// Through the mountains, low and then high, turning and nosing down.
-Flight mountainFlight() {
-  const auto terrain = hills();
-  Flight flight;
-  flight.name = "mountains";
-  for (int i = 0; i < 60; ++i) {
-    AircraftState state;
-    state.time = i * 0.5;
-    state.packet = static_cast<std::uint64_t>(i);
-    const Degrees latitude{36.42 + i * 1e-3}, longitude{128.12 + i * 8e-4};
-    const Metres ground = terrain->highestWithin(latitude, longitude, Metres{1}).value_or(Metres{0});
-    state.position = {latitude, longitude, ground + Metres{100 + i * 25.0}};
-    state.attitude = {Degrees{40 + i * 2.0}, Degrees{10 - i * 0.5}, Degrees{i * 0.5}};
-    flight.states.push_back(state);
-  }
-  return flight;
-}
-
-Plan smallPlan() {
-  Plan plan;
-  plan.terrain = hills();
-  plan.terrainName = "mountains";
-  plan.flights = {{"one", mountainFlight()}};
-  TuningParameters coarse = *defaultParameters();
-  coarse.lod.screenSpaceError = Pixels{16};
-  plan.presets = {{"default", defaultParameters()}, {"coarse", *validate(coarse)}};
-  plan.widthPx = 96;
-  plan.heightPx = 64;
-  plan.frames = 4;
-  plan.repeats = 2;
-  plan.worst = 1;
-  plan.skips = false;
-  plan.version = "test";
-  return plan;
-}
 
 /// Everything that must repeat: all but the times.
 std::string withoutTimes(const Results& results) {
@@ -77,13 +32,6 @@ std::string withoutTimes(const Results& results) {
     }
   }
   return text;
-}
-
-const Unit& unitOf(const Results& results, const std::string& preset, const std::string& method) {
-  for (const Unit& unit : results.units)
-    if (unit.name.preset == preset && unit.name.method == method) return unit;
-  ADD_FAILURE() << preset << ' ' << method;
-  return results.units.front();
 }
 
 std::map<std::string, fs::file_time_type> partsOf(const fs::path& folder) {
@@ -243,25 +191,6 @@ TEST(Run, refusesWhatItCannotMeasure) {
   EXPECT_EQ(test::readFile(dir / "mine" / "frames.csv"), "precious");
   test::writeFile(dir / "file", "");
   EXPECT_FALSE(run(smallPlan(), dir / "file"));
-}
-
-TEST(Run, replaysATraceFromTheMemoryAndCostItRecorded) {
-  const test::ScratchDir dir;
-  Plan plan = smallPlan();
-  plan.presets.pop_back();
-  plan.cases = {CullingCase::proposed};
-  Session session(plan.presets[0].parameters);
-  session.setGround(plan.terrain);
-  session.keepRows(true);
-  for (const AircraftState& state : plan.flights[0].flight.states) session.fly(state, state.time);
-  const auto flown = run(plan, dir / "flown");
-  session.takeRows(plan.flights[0].trace, true);
-  ASSERT_EQ(plan.flights[0].trace.size(), 60u);
-  const auto replayed = run(plan, dir / "replayed");
-  ASSERT_TRUE(flown && replayed) << toString(replayed.findings());
-  EXPECT_EQ(withoutTimes(*flown), withoutTimes(*replayed));
-  plan.flights[0].trace.pop_back();
-  EXPECT_FALSE(run(plan, dir / "short"));
 }
 
 TEST(HeatColour, growsLighterAllTheWay) {

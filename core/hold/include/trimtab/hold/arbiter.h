@@ -87,6 +87,10 @@ struct HoldRecord {
 /// goes back or is not a number counts as no time.
 HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& parameters, HoldMemory& memory);
 
+/// Returns how long an image may have an effect on later decisions, milliseconds: a restoration that it begins,
+/// and the time within which that may be taken back. Patience may delay one for longer.
+double rememberedMs();
+
 /// Returns the allowed error at a place of HoldSteps::error, pixels.
 double errorAtPlace(std::uint8_t place, double askedPx);
 

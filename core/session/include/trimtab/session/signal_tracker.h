@@ -22,6 +22,9 @@ namespace trimtab {
 /// comes to rest for any rules.
 class SignalTracker {
  public:
+  /// The load is the median of so many images.
+  static constexpr std::size_t kLoadImages = 9;
+
   /// Adds a state, with the height above ground, the velocity and the weather that its decision uses.
   void push(const AircraftState& state, std::optional<Metres> aboveGround,
             const std::optional<Velocity>& velocity, const WeatherDecision& weather);
@@ -58,7 +61,7 @@ class SignalTracker {
   std::optional<double> time_;  ///< of the last state
   Vec3 sight_, head_;           ///< unit vectors of the last state
   bool hasHead_ = false;
-  std::array<double, 9> loads_{};
+  std::array<double, kLoadImages> loads_{};
   std::size_t loadCount_ = 0;
   std::optional<View> view_;
   Loop loadLoop_, trianglesLoop_;
