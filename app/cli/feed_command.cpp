@@ -97,7 +97,7 @@ int show(const FeedOptions& options) {
   for (;;) {
     (*receiver)->take(states);
     if (!states.empty()) last = states.back();
-    if (ending.reached((*receiver)->statistics().received)) break;
+    if (ending.reached((*receiver)->senders().received)) break;
     nap();
     everySecond(line);
     // Nobody reads it; main() says so.
