@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "app/link/link.h"
+#include "app/link/link_watch.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/data_extent.h"
@@ -29,6 +30,7 @@ class Loop {
     while (!run_.wake.stop() && !enough()) {
       const double start = link::now();
       if (run_.health) run_.health->look(start, summary_.frames, summary_.terrainReloads, run_.session);
+      complain(start);
       const bool news = run_.feed.advance(run_.session, start);
       bool stale = false;
       if (!run_.surface.handleEvents(stale)) break;
@@ -40,10 +42,17 @@ class Loop {
       else
         sleep();
     }
+    complain(link::now());
     return finishedSummary();
   }
 
  private:
+  void complain(double now) {
+    // In one piece, for whoever waits for the line.
+    if (const std::optional<std::string> line = run_.feed.complaint(now))
+      std::cerr << "warning: " + *line + "\n" << std::flush;
+  }
+
   /// What came while the program made itself ready is decided like all else, but no picture can have shown it
   /// in time.
   void begin() {
@@ -63,6 +72,7 @@ class Loop {
     const double now = link::now();
     double seconds = run_.feed.dueIn(now);
     if (run_.watch) seconds = std::fmin(seconds, FileWatch::kPeriodS);
+    if (run_.options.listen) seconds = std::fmin(seconds, link::LinkWatch::kLookS);
     if (run_.health) seconds = std::fmin(seconds, std::fmax(run_.health->dueIn(now), 0));
     const LinkState link = run_.session.linkState(now);
     const bool moving = link == LinkState::live || link == LinkState::jumped || run_.session.unsettled();
