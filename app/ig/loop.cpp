@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <utility>
 
 #include "app/link/link.h"
 #include "app/link/link_watch.h"
@@ -138,6 +139,8 @@ class Loop {
     const double end = link::now();
     run_.damage.look(result.paging.failed);
     stages_.add(run_.session.finished(result, end));
+    if (const auto& why = run_.session.hold().model().whyAnew(); why && !std::exchange(saidAnew_, true))
+      report({*why});
     // Where images follow one another at once, time saved later is time spent now.
     if (run_.options.listen || run_.options.realtime)
       run_.session.builtAhead(
@@ -187,6 +190,7 @@ class Loop {
   std::optional<int> lastBand_;
   std::vector<TraceRow> rows_;
   double lastFrame_ = 0, lastWatch_ = 0;
+  bool saidAnew_ = false;  ///< that the cost model began anew
 };
 
 }  // namespace
