@@ -68,6 +68,7 @@ int show(const FeedOptions& options) {
     return kRefused;
   }
   sayListening(options, **receiver);
+  link::LinkWatch watch((*receiver)->port(), options.bind);
   Ending ending = options.ending;
   ending.begin = Clock::now();
   EverySecond everySecond;
@@ -97,12 +98,14 @@ int show(const FeedOptions& options) {
   for (;;) {
     (*receiver)->take(states);
     if (!states.empty()) last = states.back();
-    if (ending.reached((*receiver)->statistics().received)) break;
+    sayWhyNothing(**receiver, watch);
+    if (ending.reached((*receiver)->senders().received)) break;
     nap();
     everySecond(line);
     // Nobody reads it; main() says so.
     if (std::ferror(stdout)) return kRefused;
   }
+  sayWhyNothing(**receiver, watch);
   if (!everySecond.justCalled()) line();
   return kDone;
 }

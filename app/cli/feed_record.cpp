@@ -36,6 +36,7 @@ int recordFeed(const FeedOptions& options) {
     inbox.put({d.arrival, d.from, own, {d.bytes.begin(), d.bytes.end()}});
   });
   sayListening(options, **receiver);
+  link::LinkWatch watch((*receiver)->port(), options.bind);
   Ending ending = options.ending;
   ending.begin = Clock::now();
   EverySecond everySecond;
@@ -45,12 +46,14 @@ int recordFeed(const FeedOptions& options) {
     return added.ok();
   };
   while (write() && !ending.reached(recording.size())) {
+    sayWhyNothing(**receiver, watch);
     nap();
     everySecond([&] {
       std::fprintf(stderr, "%llu datagrams, %s\n", static_cast<unsigned long long>(recording.size()),
                    health((*receiver)->statistics(), (*receiver)->senders()).c_str());
     });
   }
+  sayWhyNothing(**receiver, watch);
   const HostStatistics statistics = (*receiver)->statistics();
   (*receiver).reset();
   write();

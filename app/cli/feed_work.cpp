@@ -58,6 +58,11 @@ void sayListening(const FeedOptions& options, const link::Receiver& receiver) {
                options.bind.c_str(), receiver.senders().allowed.c_str());
 }
 
+void sayWhyNothing(const link::Receiver& receiver, link::LinkWatch& watch) {
+  if (const auto line = watch.look(receiver.statistics(), receiver.senders(), link::now()))
+    std::fprintf(stderr, "warning: %s\n", line->c_str());
+}
+
 std::string health(const HostStatistics& s, const link::Senders& senders) {
   char text[256];
   std::snprintf(text, sizeof text, "%s %.2f Hz jitter %.3f ms lost %s bad %llu", protocolText(s.protocol),
@@ -67,6 +72,7 @@ std::string health(const HostStatistics& s, const link::Senders& senders) {
   const auto append = [&line](const char* name, std::uint64_t count) {
     if (count > 0) line += std::string(" ") + name + ' ' + std::to_string(count);
   };
+  append("for-someone-else", s.notForUs);
   append("truncated", s.truncated);
   append("not-ready", s.notReady);
   append("repeated", s.repeated);
@@ -81,6 +87,7 @@ std::string health(const HostStatistics& s, const link::Senders& senders) {
   append("refused-symbols", s.refusedSymbols);
   append("of-refused-senders", senders.refused);
   if (senders.refused > 0) line += " last " + senders.lastRefused;
+  for (const HostStatistics& other : senders.others) append(("of-" + other.from).c_str(), other.received);
   return line;
 }
 

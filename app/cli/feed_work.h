@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/link/link.h"
+#include "app/link/link_watch.h"
 
 /// What the commands play, record and show of `feed` share.
 namespace trimtab::cli {
@@ -63,6 +64,8 @@ struct FeedOptions {
 Result<std::unique_ptr<link::Receiver>> openReceiver(const FeedOptions& options);
 /// Says on standard error where a receiver listens, and to whom.
 void sayListening(const FeedOptions& options, const link::Receiver& receiver);
+/// Says on standard error why datagrams lead to nothing, if that is due.
+void sayWhyNothing(const link::Receiver& receiver, link::LinkWatch& watch);
 /// Returns the counters that are worth a word, on one line.
 std::string health(const HostStatistics& statistics, const link::Senders& senders);
 void printFirstBad(const HostStatistics& statistics);

@@ -6,6 +6,7 @@
 #include <string>
 #include "app/link/head_option.h"
 #include "app/link/link.h"
+#include "app/link/link_watch.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/host/received_state.h"
 
@@ -78,7 +79,7 @@ class RealtimeFeed : public Feed {
 class LinkFeed : public Feed {
  public:
   LinkFeed(std::unique_ptr<link::Receiver> receiver, std::string address)
-      : receiver_(std::move(receiver)), address_(std::move(address)) {}
+      : receiver_(std::move(receiver)), address_(std::move(address)), watch_(receiver_->port(), address_) {}
   bool advance(Session& session, double) override {
     states_.clear();
     receiver_->take(states_);
@@ -96,10 +97,14 @@ class LinkFeed : public Feed {
   std::optional<HostStatistics> statistics() const override { return receiver_->statistics(); }
   std::optional<link::Senders> senders() const override { return receiver_->senders(); }
   std::uint64_t dropped() const override { return receiver_->dropped(); }
+  std::optional<std::string> complaint(double now) override {
+    return watch_.look(receiver_->statistics(), receiver_->senders(), now);
+  }
 
  private:
   std::unique_ptr<link::Receiver> receiver_;
   std::string address_;  ///< that it is bound to
+  link::LinkWatch watch_;
   std::vector<ReceivedState> states_;
 };
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "app/link/link.h"
 #include "options.h"
@@ -26,6 +27,8 @@ class Feed {
   virtual std::optional<HostStatistics> statistics() const { return std::nullopt; }
   virtual std::optional<link::Senders> senders() const { return std::nullopt; }
   virtual std::uint64_t dropped() const { return 0; }
+  /// Returns the line that is due about a host whose datagrams lead to no image (link::LinkWatch).
+  virtual std::optional<std::string> complaint(double) { return std::nullopt; }
 };
 
 /// Opens the head that the options name, or the host's if they name none. Fails for a trace if the options

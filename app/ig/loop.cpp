@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <iostream>
+#include <utility>
 
 #include "app/link/link.h"
+#include "app/link/link_watch.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/data_extent.h"
@@ -29,6 +31,7 @@ class Loop {
     while (!run_.wake.stop() && !enough()) {
       const double start = link::now();
       if (run_.health) run_.health->look(start, summary_.frames, summary_.terrainReloads, run_.session);
+      complain(start);
       const bool news = run_.feed.advance(run_.session, start);
       bool stale = false;
       if (!run_.surface.handleEvents(stale)) break;
@@ -40,10 +43,17 @@ class Loop {
       else
         sleep();
     }
+    complain(link::now());
     return finishedSummary();
   }
 
  private:
+  void complain(double now) {
+    // In one piece, for whoever waits for the line.
+    if (const std::optional<std::string> line = run_.feed.complaint(now))
+      std::cerr << "warning: " + *line + "\n" << std::flush;
+  }
+
   /// What came while the program made itself ready is decided like all else, but no picture can have shown it
   /// in time.
   void begin() {
@@ -63,6 +73,7 @@ class Loop {
     const double now = link::now();
     double seconds = run_.feed.dueIn(now);
     if (run_.watch) seconds = std::fmin(seconds, FileWatch::kPeriodS);
+    if (run_.options.listen) seconds = std::fmin(seconds, link::LinkWatch::kLookS);
     if (run_.health) seconds = std::fmin(seconds, std::fmax(run_.health->dueIn(now), 0));
     const LinkState link = run_.session.linkState(now);
     const bool moving = link == LinkState::live || link == LinkState::jumped || run_.session.unsettled();
@@ -128,6 +139,8 @@ class Loop {
     const double end = link::now();
     run_.damage.look(result.paging.failed);
     stages_.add(run_.session.finished(result, end));
+    if (const auto& why = run_.session.hold().model().whyAnew(); why && !std::exchange(saidAnew_, true))
+      report({*why});
     // Where images follow one another at once, time saved later is time spent now.
     if (run_.options.listen || run_.options.realtime)
       run_.session.builtAhead(
@@ -177,6 +190,7 @@ class Loop {
   std::optional<int> lastBand_;
   std::vector<TraceRow> rows_;
   double lastFrame_ = 0, lastWatch_ = 0;
+  bool saidAnew_ = false;  ///< that the cost model began anew
 };
 
 }  // namespace

@@ -42,6 +42,15 @@ std::string heldText(const Summary& s) {
   return text;
 }
 
+/// What of a sender's datagrams could not be used, and why.
+void addUnusable(nlohmann::ordered_json& json, const HostStatistics& sender) {
+  json["bad"] = sender.bad;
+  json["not_for_us"] = sender.notForUs;
+  if (sender.bad > 0) json["first_bad"] = {{"reason", sender.firstBadReason}, {"hex", sender.firstBadHex}};
+  if (sender.newestBad) json["newest_bad"] = toString(*sender.newestBad);
+  if (sender.newestNotForUs) json["newest_not_for_us"] = toString(*sender.newestNotForUs);
+}
+
 }  // namespace
 
 std::string summaryLine(const Summary& s, const Feed& feed) {
@@ -54,8 +63,13 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
     append("late", host->reordered);
     append("repeated", host->repeated);
     append("implausible", host->implausible);
-    if (const auto senders = feed.senders()) append("of refused senders", senders->refused);
+    const std::optional<link::Senders> senders = feed.senders();
+    if (senders) append("of refused senders", senders->refused);
+    append("for someone else", host->notForUs);
     text += ", bad " + std::to_string(host->bad) + ", dropped " + std::to_string(feed.dropped());
+    for (const HostStatistics& other : senders ? senders->others : std::vector<HostStatistics>{})
+      text += "; beside it " + other.from + " with " + std::to_string(other.received) + " datagrams, bad " +
+              std::to_string(other.bad);
     text += "; kernel to decoded p99 " + milliseconds(s.decodedP99Ms);
   }
   if (std::isfinite(s.shownP99Ms))
@@ -101,21 +115,29 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["picture_p99_frames"] = number(s.shownP99Ms / s.medianFrameMs);
   json["picture_every_p99_ms"] = number(s.everyP99Ms);
   if (const std::optional<HostStatistics> host = feed.statistics()) {
-    json["host"] = {
-        {"received", host->received}, {"states", host->states},       {"bad", host->bad},
-        {"repeated", host->repeated}, {"reordered", host->reordered}, {"dropped", feed.dropped()}};
+    json["host"] = {{"received", host->received},
+                    {"states", host->states},
+                    {"repeated", host->repeated},
+                    {"reordered", host->reordered},
+                    {"dropped", feed.dropped()}};
+    json["host"]["from"] = host->from;
     json["host"]["implausible"] = host->implausible;
     if (const auto senders = feed.senders()) {
       json["host"]["sender"] = senders->allowed;
       json["host"]["refused_senders"] = senders->refused;
       if (senders->refused > 0) json["host"]["last_refused_sender"] = senders->lastRefused;
+      for (const HostStatistics& other : senders->others) {
+        nlohmann::ordered_json beside{
+            {"from", other.from}, {"received", other.received}, {"states", other.states}};
+        addUnusable(beside, other);
+        json["host"]["other_senders"].push_back(std::move(beside));
+      }
     }
     json["host"]["symbol_packets"] = host->symbolPackets;
     json["host"]["refused_symbols"] = host->refusedSymbols;
     if (host->refusedSymbols > 0) json["host"]["first_refused_symbol"] = host->firstSymbolReason;
     json["host"]["lost"] = host->lost ? nlohmann::ordered_json(*host->lost) : nlohmann::ordered_json();
-    if (host->bad > 0)
-      json["host"]["first_bad"] = {{"reason", host->firstBadReason}, {"hex", host->firstBadHex}};
+    addUnusable(json["host"], *host);
   }
   json["preset"] = options.preset;
   json["terrain"] = options.terrain.string();

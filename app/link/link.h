@@ -28,11 +28,14 @@ Result<Endpoint> parseEndpoint(const std::string& text);
 /// Unless told otherwise, nobody on the network reaches a receiver.
 inline constexpr const char *kOwnMachine = "127.0.0.1", *kAnyone = "any", *kFirst = "first";
 
-/// Who may send to a receiver, and who tried without being allowed.
+/// Who may send to a receiver, who sends, and who tried without being allowed.
 struct Senders {
-  std::string allowed;        ///< an address, kAnyone, or kFirst before the first
-  std::uint64_t refused = 0;  ///< datagrams
-  std::string lastRefused;    ///< "192.168.1.7:5500"; empty if none was
+  std::string allowed;         ///< an address, kAnyone, or kFirst before the first
+  std::uint64_t refused = 0;   ///< datagrams
+  std::string lastRefused;     ///< "192.168.1.7:5500"; empty if none was
+  std::uint64_t received = 0;  ///< datagrams of all allowed senders
+  /// The health of the senders beside the one that Receiver::statistics() is of.
+  std::vector<HostStatistics> others;
 };
 
 struct ReceiverOptions {
@@ -62,6 +65,7 @@ class Receiver {
   virtual std::uint16_t port() const = 0;
   /// Returns in `states` all states since the last call, in order of arrival.
   virtual void take(std::vector<ReceivedState>& states) = 0;
+  /// Returns the health of the sender that is followed (HostDecoder::statistics).
   virtual HostStatistics statistics() const = 0;
   virtual Senders senders() const = 0;
   virtual std::uint64_t dropped() const = 0;

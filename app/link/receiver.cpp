@@ -100,7 +100,10 @@ class UdpReceiver final : public Receiver {
   }
   Senders senders() const override {
     const std::lock_guard lock(mutex_);
-    return gate_.senders();
+    Senders senders = gate_.senders();
+    senders.received = received_;
+    senders.others = others_;
+    return senders;
   }
   std::uint64_t dropped() const override {
     const std::lock_guard lock(mutex_);
@@ -138,6 +141,8 @@ class UdpReceiver final : public Receiver {
   std::size_t oldest_ = 0;
   std::uint64_t dropped_ = 0;
   HostStatistics statistics_;
+  std::vector<HostStatistics> others_;
+  std::uint64_t received_ = 0;
   Gate gate_;
 
   std::thread thread_;
@@ -223,9 +228,10 @@ void UdpReceiver::accept(std::span<const std::byte> bytes, double kernelTime) {
   }
   {
     const std::lock_guard lock(mutex_);
-    const HostStatistics& now = decoder_.statistics();
-    if (now.bad == statistics_.bad) gate_.heardGood(sender_);
-    statistics_ = now;
+    if (decoder_.understood()) gate_.heardGood(sender_);
+    statistics_ = decoder_.statistics();
+    others_ = decoder_.otherSenders();
+    received_ = decoder_.received();
     if (state) {
       const ReceivedState received{*state, kernelTime, decodedTime, decoder_.symbols()};
       if (queue_.size() < kQueue) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "trimtab/units/not_finite.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 namespace {
@@ -108,7 +109,7 @@ StageTimes stagesOf(const FrameCost& cost) {
 
 void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
   const double work = workMs(cost);
-  if (!std::isfinite(work) || !(work > 0)) return;
+  if (!(work >= cost_bounds::kShortestMs && work <= cost_bounds::kLongestMs)) return;
   const bool falls = load.particles > 0;
   if ((falls && !isTime(cost.weather)) || (load.blurs && !isTime(cost.blur))) return;
   const StageTimes took = stagesOf(cost);
@@ -116,17 +117,43 @@ void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
 
   const CostCoefficients before = coefficients(load);
   if (before.known) {
+    noteFarOff(predict(before, load).total(), work);
     // A running quantile: it rises nine times as fast as it falls, and rests where one image in ten is
     // outside.
     const double error = std::abs(work - predict(before, load).total());
     constexpr double kStep = 0.02;
-    band_ = std::clamp(band_ + kStep * (error > before.bandMs ? 0.9 : -0.1) * band_, 0.3, 10.0);
+    band_ = std::clamp(band_ + kStep * (error > before.bandMs ? 0.9 : -0.1) * band_, kLeastBand, kMostBand);
   }
   ground_.observe(groundOf(load), took.ground);
   if (load.particles >= kFewestParticles) weather_.observe(weatherOf(load), cost.weather);
   if (load.blurs) blur_.observe(blurOf(load), cost.blur);
   noteOther(took.other);
   ++images_;
+  if (!ground_.state().isFinite() || !weather_.state().isFinite() || !blur_.state().isFinite())
+    beginAnew({Severity::warning, "cost model", "", "finite numbers",
+               "one that is not finite after " + std::to_string(images_) + " images"});
+}
+
+/// The coefficients mostly follow a machine that changes within some tens of images. Numbers that were read
+/// from a damaged file may keep them far off for good, and so may a machine that was much slower for a while:
+/// what is forgotten then is worth less than eight images.
+void CostModel::noteFarOff(double predictedMs, double ms) {
+  constexpr double kFar = 2;
+  constexpr int kHopeless = 100;
+  const bool near = predictedMs <= kFar * ms && predictedMs >= ms / kFar;
+  farOff_ = near ? 0 : farOff_ + 1;
+  if (farOff_ < kHopeless) return;
+  beginAnew(
+      {Severity::warning, "cost model", "prediction",
+       "about " + numberText(ms, 3) + " ms, which the image took",
+       numberText(predictedMs, 3) + " ms, and " + std::to_string(kHopeless - 1) + " before it as far off"});
+}
+
+void CostModel::beginAnew(Finding why) {
+  why.found += "; it is learned anew";
+  if (whyAnew_) why = *whyAnew_;
+  *this = CostModel();
+  whyAnew_ = std::move(why);
 }
 
 /// The median of the last images counts: a long upload, or a trial of a method that looks for hidden ground,

@@ -12,6 +12,7 @@
 
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/units/number.h"
 #include "trimtab/units/text.h"
 
 namespace trimtab {
@@ -19,23 +20,19 @@ namespace {
 
 constexpr std::string_view kHeader = "trimtab-cost-model 2";
 
-/// Visits every number of a state, in the order of the file.
-template <std::size_t N, class Fit, class Visit>
-void forEachNumber(Fit& fit, const Visit& visit) {
-  for (auto& c : fit.coefficient) visit(c);
-  for (auto& row : fit.covariance)
-    for (auto& c : row) visit(c);
-  for (auto& s : fit.scale) visit(s);
-  visit(fit.noise);
-  visit(fit.images);
-}
-template <class State, class Visit>
-void forEachNumber(State& state, const Visit& visit) {
-  forEachNumber<4>(state.ground, visit);
-  forEachNumber<2>(state.weather, visit);
-  forEachNumber<1>(state.blur, visit);
-  visit(state.other);
-  visit(state.band);
+constexpr int kFirstNumber = 3;  ///< its line
+
+/// Names every number that no model can have, with its line.
+Findings unsound(const CostModel::State& state, const std::filesystem::path& file) {
+  Findings findings;
+  int line = kFirstNumber;
+  CostModel::State::forEachNumber(state, [&](const std::string& key, double number, double low, double high) {
+    if (!(number >= low && number <= high))
+      findings.push_back({Severity::warning, file.string() + ':' + std::to_string(line), key,
+                          numberText(low, 6) + ".." + numberText(high, 6), numberText(number, 6)});
+    ++line;
+  });
+  return findings;
 }
 
 std::string processorName() {
@@ -59,7 +56,8 @@ Result<Done> writeCostModel(const std::filesystem::path& file, const std::string
                             const CostModel& model) {
   std::string text = std::string(kHeader) + '\n' + machine + '\n';
   const CostModel::State state = model.state();
-  forEachNumber(state, [&](const double& number) {
+  if (Findings findings = unsound(state, file); !findings.empty()) return findings;
+  CostModel::State::forEachNumber(state, [&](const std::string&, double number, double, double) {
     std::array<char, 32> cell;
     text.append(cell.data(), std::to_chars(cell.data(), cell.data() + cell.size(), number).ptr);
     text += '\n';
@@ -82,9 +80,9 @@ Result<CostModel::State> readCostModel(const std::filesystem::path& file, const 
   if (const std::string_view on = takeLine(text); on != machine)
     return finding(2, "a model of this machine, \"" + machine + '"', on);
   CostModel::State state;
-  int line = 2;
+  int line = kFirstNumber - 1;
   std::optional<Finding> bad;
-  forEachNumber(state, [&](double& number) {
+  CostModel::State::forEachNumber(state, [&](const std::string&, double& number, double, double) {
     ++line;
     const std::string_view cell = takeLine(text);
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
@@ -93,9 +91,7 @@ Result<CostModel::State> readCostModel(const std::filesystem::path& file, const 
   });
   if (!bad && !text.empty()) bad = finding(line + 1, "the end of the file", takeLine(text));
   if (bad) return *bad;
-  if (!state.ground.canBe() || !state.weather.canBe() || !state.blur.canBe() || state.other < 0 ||
-      state.band < 0)
-    return finding(3, "a model that was learned: costs and variances of at least 0", "other numbers");
+  if (Findings findings = unsound(state, file); !findings.empty()) return findings;
   return state;
 }
 

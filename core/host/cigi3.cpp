@@ -60,15 +60,20 @@ std::optional<PacketFault> readIgControl(std::span<const std::byte> bytes, Messa
   return std::nullopt;
 }
 
-void readEntityControl(Packet& p, Session& session, std::optional<PacketFault>& fault) {
-  if (p.raw<std::uint16_t>(2) != kOwnship) return;
+void readEntityControl(Packet& p, Session& session, Message& message) {
+  if (const auto entity = p.raw<std::uint16_t>(2); entity != kOwnship) {
+    if (message.otherEntities++ == 0)
+      message.otherEntity = PacketFault{p.start + 2, "entity", "0, the ownship", std::to_string(entity),
+                                        "let the host send its own aircraft as entity 0"};
+    return;
+  }
   constexpr unsigned kDestroyed = 2;
   if ((p.u8(4) & 3U) == kDestroyed) {
     session.position.reset();
     return;
   }
   if (p.bit(4, 2)) {
-    fault =
+    message.fault =
         PacketFault{p.start + 4, "attach state of the ownship", "detached (a geodetic position)", "attached"};
     return;
   }
@@ -237,7 +242,7 @@ Message parse(std::span<const std::byte> bytes, Session& session) {
         return message;
       }
       Packet packet(bytes, at, message.order);
-      if (id == kEntityControl) readEntityControl(packet, session, message.fault);
+      if (id == kEntityControl) readEntityControl(packet, session, message);
       if (id == kAtmosphereControl) readAtmosphereControl(packet, session);
       if (id == kWeatherControl) readWeatherControl(packet, session, message);
       if (id == kViewControl) readViewControl(packet, session);

@@ -70,8 +70,10 @@ struct Message {
   std::optional<PacketFault> cutAt;    ///< packets from here on were dropped; those before count
   int regionalWeather = 0;             ///< Weather Control of a region or an entity: passed over
   int otherLayers = 0;                 ///< Weather Control of a layer that is not rain or snow: passed over
-  int symbolPackets = 0;               ///< applied
-  int refusedSymbols = 0;              ///< symbol packets that were left out
+  int otherEntities = 0;               ///< Entity Control of others than the ownship: passed over
+  std::optional<PacketFault> otherEntity;  ///< the first of them, as what the ownship should have been
+  int symbolPackets = 0;                   ///< applied
+  int refusedSymbols = 0;                  ///< symbol packets that were left out
   std::optional<PacketFault> symbolFault;  ///< of the first of them
 };
 

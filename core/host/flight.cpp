@@ -56,11 +56,20 @@ bool isStartOfFrame(const CapturedDatagram& d) {
   return d.bytes.size() >= cigi3::kStartOfFrameSize && d.bytes[0] == std::byte{cigi3::kStartOfFrame};
 }
 
+/// Why a sender's datagrams hold no state; empty if nobody knows.
+std::string whyNone(const HostStatistics& s) {
+  if (!s.firstBadReason.empty()) return "the first bad one: " + s.firstBadReason;
+  const std::optional<Finding>& newest = s.newestNotForUs ? s.newestNotForUs : s.newestUnused;
+  return newest ? "the newest: " + toString(*newest) : std::string();
+}
+
 void appendLinkNotes(const HostStatistics& s, const std::string& where, Findings& findings) {
   const auto count = [&](std::uint64_t n, const std::string& what, Severity severity = Severity::note) {
     if (n > 0) findings.push_back({severity, where, "", "", std::to_string(n) + ' ' + what});
   };
   count(s.bad, "bad datagrams, passed over; the first: " + s.firstBadReason, Severity::warning);
+  count(s.notForUs, "datagrams for someone else, passed over; the newest: " +
+                        toString(s.newestNotForUs.value_or(Finding{})));
   count(s.truncated, "messages with a broken tail; the first bad datagram: " + s.firstBadReason,
         Severity::warning);
   count(s.notReady, "datagrams below -1000 ft: the simulator was not ready; dropped");
@@ -120,11 +129,11 @@ Result<Flight> flightFromDatagrams(std::span<const CapturedDatagram> datagrams, 
   }
   Findings findings;
   if (!busiest || decoded.states.empty()) {
-    const std::string& reason = decoded.statistics.firstBadReason;
+    const std::string reason = whyNone(decoded.statistics);
     findings.push_back({Severity::error, where, "",
                         "datagrams of a native-fdm or CIGI 3 host with an ownship",
                         std::to_string(datagrams.size()) + " datagrams, none of them" +
-                            (reason.empty() ? "" : "; the first bad one: " + reason)});
+                            (reason.empty() ? "" : "; " + reason)});
     return findings;
   }
   if (startOfFrames > 0)

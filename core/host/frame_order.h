@@ -15,7 +15,7 @@ class FrameOrder {
     restarted,   ///< the host counts anew
     implausible  ///< far from all others: damaged, or the first of a new count, which the next one confirms
   };
-  /// If `mayRestart` (other sender, or silence), any older number restarts, and one far away is believed at
+  /// If `mayRestart` (after a silence), any older number restarts, and one far away is believed at
   /// once.
   Verdict accept(std::uint32_t frame, bool mayRestart);
   std::optional<std::uint32_t> last() const { return last_; }

@@ -50,7 +50,8 @@ std::optional<PacketFault> parse(std::span<const std::byte> bytes, AircraftState
   }
   if (bytes.size() != kSize)
     return PacketFault{bytes.size(), "native-fdm length", std::to_string(kSize) + " bytes",
-                       std::to_string(bytes.size()) + " bytes"};
+                       std::to_string(bytes.size()) + " bytes",
+                       "let the host send the structure with its padding, as FlightGear does"};
 
   FieldReader read(bytes, ByteOrder::big);
   const double longitude = read.number<double>(kLongitude, "longitude", -limits::kLongitude,

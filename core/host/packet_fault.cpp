@@ -18,6 +18,11 @@ std::string toString(const PacketFault& fault) {
          ", found " + fault.found;
 }
 
+Finding toFinding(const PacketFault& fault, const std::string& from) {
+  return {Severity::warning, from, "byte " + std::to_string(fault.offset) + ": " + fault.field,
+          fault.expected, fault.found + (fault.remedy.empty() ? "" : "; " + fault.remedy)};
+}
+
 void FieldReader::refuse(std::size_t offset, const char* field, double lowest, double highest,
                          const char* unit, double value) {
   const std::string suffix = std::string(" ") + unit;

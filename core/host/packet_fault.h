@@ -6,6 +6,7 @@
 #include <string>
 
 #include "trimtab/host/byte_order.h"
+#include "trimtab/units/result.h"
 
 namespace trimtab {
 
@@ -13,10 +14,13 @@ namespace trimtab {
 struct PacketFault {
   std::size_t offset = 0;  ///< bytes from the start of the datagram
   std::string field, expected, found;
+  std::string remedy{};  ///< what to do about it, where that does not follow from what was expected
 };
 
 /// "byte 16: latitude: expected -90..90 deg, found 123.4 deg"
 std::string toString(const PacketFault& fault);
+/// The same as a warning about a sender, with the remedy after what was found.
+Finding toFinding(const PacketFault& fault, const std::string& from);
 
 /// Reads fields and keeps the first one that is not a number or out of range; reading goes on, with 0 in its
 /// place.

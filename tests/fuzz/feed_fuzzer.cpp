@@ -28,11 +28,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!(std::abs(eye.position.latitude.value()) <= 90) || !std::isfinite(eye.position.height.value()))
       std::abort();
   }
-  const HostStatistics& s = decoder.statistics();
-  if (s.received != sent || s.states != states) std::abort();
-  if (s.states + s.bad + s.notReady + s.repeated + s.reordered > s.received || s.implausible > s.received)
-    std::abort();
-  // No number of frames that nobody can have sent.
-  if (s.lost.value_or(0) > 36000 * sent) std::abort();
+  std::vector<HostStatistics> senders = decoder.otherSenders();
+  senders.push_back(decoder.statistics());
+  std::uint64_t received = 0, decoded = 0;
+  for (const HostStatistics& s : senders) {
+    received += s.received;
+    decoded += s.states;
+    if (s.states + s.bad + s.notForUs + s.notReady + s.repeated + s.reordered > s.received ||
+        s.implausible > s.received)
+      std::abort();
+    // No number of frames that nobody can have sent.
+    if (s.lost.value_or(0) > 36000 * s.received) std::abort();
+  }
+  if (decoder.received() != sent || received != sent || decoded != states) std::abort();
   return 0;
 }

@@ -4,14 +4,17 @@
 #include "trimtab/host/decoder.h"
 #include "trimtab/host/encoder.h"
 
-/// A datagram is good or bad, never both; a state it yields is finite, in range, and survives being sent
-/// again, and so do its symbols.
+/// A datagram is good, bad or for someone else, never two of them; a state it yields is finite, in range, and
+/// survives being sent again, and so do its symbols.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trimtab;
   HostDecoder decoder, again;
   const auto state = decoder.accept({std::as_bytes(std::span(data, size)), 1, "fuzz"});
   const HostStatistics& s = decoder.statistics();
-  if (s.received != 1 || s.states + s.bad + s.notReady > 1 || s.states != (state ? 1U : 0U)) std::abort();
+  if (s.received != 1 || s.states + s.bad + s.notForUs + s.notReady > 1 || s.states != (state ? 1U : 0U))
+    std::abort();
+  if (s.newestBad.has_value() != (s.bad == 1) || s.newestNotForUs.has_value() != (s.notForUs == 1))
+    std::abort();
   if (s.bad == 1 && (s.firstBadReason.empty() || (size > 0 && s.firstBadHex.empty()))) std::abort();
   if (!state) return 0;
   const GeodeticPosition& p = state->position;

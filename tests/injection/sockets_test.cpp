@@ -61,10 +61,7 @@ Outcome receive(long call, faults::Way way) {
         state.time = static_cast<double>(i);
         state.position = {Degrees{36.6}, Degrees{128.3}, Metres{2000}};
         const auto bytes = encodeCigiHost(state, static_cast<std::uint32_t>(i + 1), 0);
-        const auto heard = [&] {
-          const HostStatistics statistics = (*receiver)->statistics();
-          return statistics.received;
-        };
+        const auto heard = [&] { return (*receiver)->senders().received; };
         const auto before = heard();
         ::syscall(SYS_sendto, sender, bytes.data(), bytes.size(), 0, &to, sizeof to);
         until([&] { return heard() > before; });
@@ -121,7 +118,7 @@ TEST_F(Injection, ofSending) {
     long calls = 0;
   };
   const auto send = [&](long call, faults::Way way) {
-    const auto before = (*receiver)->statistics().received;
+    const auto before = (*receiver)->senders().received;
     faults::watch(faults::kSockets);
     faults::disturb(call, way);
     Sent sent;
@@ -138,9 +135,9 @@ TEST_F(Injection, ofSending) {
     }
     sent.calls = faults::calls();
     faults::stop();
-    if (sent.opened) until([&] { return (*receiver)->statistics().received >= before + kSent - 1; });
+    if (sent.opened) until([&] { return (*receiver)->senders().received >= before + kSent - 1; });
     std::this_thread::sleep_for(2ms);
-    sent.received = (*receiver)->statistics().received - before;
+    sent.received = (*receiver)->senders().received - before;
     return sent;
   };
   const Sent undisturbed = send(-1, faults::Way::io_error);

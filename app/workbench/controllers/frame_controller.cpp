@@ -177,6 +177,8 @@ void FrameController::onPainted() {
         !found.empty())
       at_.messages.add(tr("The costs of an image are learned anew"), found);
   lastCost_ = observer_.frozen() ? result->cost : at_.feed.session().finished(*result, link::now());
+  if (const auto& why = model.whyAnew(); why && !std::exchange(saidAnew_, true))
+    at_.messages.add(tr("The costs of an image are learned anew"), {*why});
   levels_ = levelsDrawn(*result, *terrain_.database());
   views::LiveFrame frame = liveFrame();
   frame.newImage = true;

@@ -74,6 +74,7 @@ class FrameController : public QObject {
   std::optional<FrameRequest> shown_;
   FrameCost lastCost_;
   bool recalled_ = false;  ///< what an earlier start learned of this machine's costs has been looked for
+  bool saidAnew_ = false;  ///< that these costs are learned anew
   LevelsFrame levels_;     ///< of the last image
   QElapsedTimer sinceImage_, sinceStart_;
   double fps_ = std::numeric_limits<double>::quiet_NaN(), flip_ = fps_;

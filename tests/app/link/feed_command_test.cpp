@@ -269,6 +269,47 @@ TEST(FeedCommand, showsTheFirstBadPacketInHex) {
   EXPECT_NE(readFile(dir / "err").find("de ad"), std::string::npos) << readFile(dir / "err");
 }
 
+TEST(FeedCommand, saysWhileItListensWhyNothingCanBeUsed) {
+  ScratchDir dir;
+  const std::string out = (dir / "out.pcap").string();
+  const std::vector<std::vector<std::string>> commands{{"show"}, {"record", "-o", out}};
+  for (const auto& command : commands) {
+    SCOPED_TRACE(command[0]);
+    const std::string port = freePort();
+    const std::filesystem::path said = dir / command[0];
+    std::vector<std::string> arguments{program("trimtab-cli").string(), "feed"};
+    arguments.insert(arguments.end(), command.begin(), command.end());
+    arguments.insert(arguments.end(), {"--listen", port});
+    Background listener(arguments, said);
+    waitFor(said, "listening");
+    UdpSocket host;
+    for (int i = 0; i < 30; ++i)
+      host.send(static_cast<std::uint16_t>(std::stoi(port)), encodeCigiStartOfFrame(1, 0, 0));
+    waitFor(said, "for someone else");
+    const std::string err = readFile(said);
+    EXPECT_NE(err.find("warning: UDP port " + port + ": "), std::string::npos) << err;
+    EXPECT_NE(err.find("the newest from 127.0.0.1:" + std::to_string(host.port()) +
+                       ": byte 0: CIGI packet id: expected 1 (IG Control: a host), found 101"),
+              std::string::npos)
+        << err;
+    listener.end(SIGINT);
+  }
+}
+
+TEST(FeedCommand, saysThatNothingArrives) {
+  ScratchDir dir;
+  const std::string showing = freePort(), recording = freePort();
+  const std::string begin = "nothing has arrived on UDP port ";
+  Background show({program("trimtab-cli").string(), "feed", "show", "--listen", showing}, dir / "show");
+  Background record({program("trimtab-cli").string(), "feed", "record", "--listen", recording, "-o",
+                     (dir / "none.pcap").string()},
+                    dir / "record");
+  for (const auto& [file, port] : {std::pair{dir / "show", showing}, std::pair{dir / "record", recording}}) {
+    for (int i = 0; i < 3; ++i) waitFor(file, begin);
+    EXPECT_NE(readFile(file).find(begin + port + " for 10 s"), std::string::npos) << readFile(file);
+  }
+}
+
 TEST(FeedCommand, refusesWithTheExitCodeOfItsKind) {
   ScratchDir dir;
   UdpSocket taken;

@@ -3,54 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <random>
+#include <vector>
 
-#include "trimtab/hold/cost_model_file.h"
+#include "noisy_machine.h"
 #include "trimtab/units/not_finite.h"
 
 namespace trimtab {
 namespace {
 
-/// A machine whose images cost what a line says, with noise.
-class Machine {
- public:
-  double slowness = 1, noise = 0.05;
-
-  FrameLoad nextLoad() {
-    FrameLoad load;
-    load.triangles = between(2e4, 1.5e5);
-    load.groundMpx = between(0.1, 0.9);
-    load.sceneMpx = 0.92;
-    load.particles = between(0, 1) < 0.3 ? between(0.2, 1) : 0;
-    load.blurs = between(0, 1) < 0.2;
-    return load;
-  }
-  FrameCost cost(const FrameLoad& load) {
-    const auto noisy = [&](double ms) { return ms * slowness * (1 + noise * normal_(random_)); };
-    FrameCost c;
-    c.decide = 0.01;
-    c.symbology = noisy(0.4);
-    c.blur = load.blurs ? noisy(3 * load.sceneMpx) : kNan;
-    c.weather = load.particles > 0 ? noisy(10 * load.particles + 2 * load.sceneMpx) : kNan;
-    c.draw =
-        noisy(ground(load)) + c.symbology + (load.blurs ? c.blur : 0) + (load.particles > 0 ? c.weather : 0);
-    c.total = c.draw + c.decide;
-    c.gpu = kNan;
-    return c;
-  }
-  static double ground(const FrameLoad& load) { return 1.5 + 8e-5 * load.triangles + 14 * load.groundMpx; }
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-
- private:
-  std::mt19937 random_{3};
-  std::normal_distribution<double> normal_;
-};
+using Machine = test::NoisyMachine;
 
 double predictedMs(const CostModel& model, const FrameLoad& load) {
   return predict(model.coefficients(load), load).total();
@@ -238,6 +200,18 @@ TEST(CostModel, whatTheFirstImagePagedIsNotWhatEveryImageTakes) {
   EXPECT_LT(later.coefficients({}).other, 1);
 }
 
+TEST(CostModel, timesThatNoImageTakesTeachNothing) {
+  for (const double ms : {-3.0, 0.0, 1e-9, 7e4, 1e150, kNan, kInfinity}) {
+    CostModel model;
+    FrameCost cost;
+    cost.total = ms;
+    cost.gpu = kNan;
+    model.observe({6e4, 0.5, 0.92, 0, false}, cost);
+    EXPECT_EQ(model.images(), 0U) << ms;
+    EXPECT_EQ(model.state().ground.images, 0) << ms;
+  }
+}
+
 TEST(CostModel, timersThatLieTeachNothing) {
   Machine machine;
   CostModel model;
@@ -274,106 +248,109 @@ TEST(CostModel, timersThatLieTeachNothing) {
   EXPECT_EQ(model.images(), images);
 }
 
-class CostModelFile : public testing::Test {
- protected:
-  std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "cost-model";
-  std::filesystem::path file = folder / "deep" / "model.txt";
-  void SetUp() override { std::filesystem::remove_all(folder); }
-  CostModel learned() {
-    Machine machine;
-    CostModel model;
-    for (int i = 0; i < 50; ++i) {
-      const FrameLoad load = machine.nextLoad();
-      model.observe(load, machine.cost(load));
-    }
-    return model;
-  }
-  std::string text() {
-    std::ifstream in(file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  void rewrite(const std::string& bytes) { std::ofstream(file) << bytes; }
-};
-
-TEST_F(CostModelFile, readsBackToTheBit) {
-  const CostModel model = learned();
-  ASSERT_TRUE(writeCostModel(file, "llvmpipe", model).ok());
-  const auto state = readCostModel(file, "llvmpipe");
-  ASSERT_TRUE(state.ok()) << toString(state.findings());
-  EXPECT_EQ(state->ground.coefficient, model.state().ground.coefficient);
-  EXPECT_EQ(state->ground.covariance, model.state().ground.covariance);
-  EXPECT_EQ(state->weather.coefficient, model.state().weather.coefficient);
-  EXPECT_EQ(state->other, model.state().other);
-}
-
-TEST_F(CostModelFile, ofAnotherMachineIsDistrusted) {
-  ASSERT_TRUE(writeCostModel(file, "llvmpipe", learned()).ok());
-  const auto state = readCostModel(file, "a GPU");
-  ASSERT_FALSE(state.ok());
-  EXPECT_NE(toString(state.findings()).find("llvmpipe"), std::string::npos);
-}
-
-TEST_F(CostModelFile, numbersThatNoModelCanHaveAreRefused) {
-  const CostModel::State good = learned().state();
-  ASSERT_TRUE(good.ground.canBe() && good.weather.canBe() && good.blur.canBe());
-  const auto refused = [&](const auto& spoil) {
-    CostModel::State state = good;
-    spoil(state);
-    CostModel model;
-    model.restore(state);
-    EXPECT_TRUE(writeCostModel(file, "llvmpipe", model).ok());
-    return !readCostModel(file, "llvmpipe").ok();
-  };
-  EXPECT_FALSE(refused([](CostModel::State&) {}));
-  EXPECT_TRUE(refused([](CostModel::State& s) { s.ground.coefficient[1] = -1e-6; }));
-  EXPECT_TRUE(refused([](CostModel::State& s) { s.ground.noise = -1; }));
-  EXPECT_TRUE(refused([](CostModel::State& s) { s.weather.noise = 0; }));
-  EXPECT_TRUE(refused([](CostModel::State& s) { s.ground.covariance[0][0] = -1e6; }));
-  EXPECT_TRUE(refused([](CostModel::State& s) { s.ground.covariance[0][1] *= 1.5; }));
-  EXPECT_TRUE(
-      refused([](CostModel::State& s) { s.ground.covariance[0][1] = s.ground.covariance[1][0] = 1e9; }));
-  EXPECT_TRUE(refused([](CostModel::State& s) { s.other = -1; }));
-}
-
-TEST_F(CostModelFile, everyMachineKeepsItsOwn) {
-  const char* const set = std::getenv("XDG_CACHE_HOME");
-  const std::string before = set ? set : "";
-  ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+/// Loads and times over many orders of magnitude, each learned for a while: what a file would be refused for
+/// is never learned.
+TEST(CostModel, learnsNoNumberOutsideItsRange) {
   Machine machine;
-  CostModel model, other;
-  for (int i = 0; i < 150; ++i) {
+  const auto anyOf = [&machine](double least, double most) {
+    return std::exp(machine.between(std::log(least), std::log(most)));
+  };
+  for (int flight = 0; flight < 200; ++flight) {
+    CostModel model;
+    for (int stay = 0; stay < 5; ++stay) {
+      const FrameLoad around{anyOf(1, 1e9), anyOf(1e-9, 100), anyOf(1e-4, 100), 0, false};
+      const double ms = anyOf(1e-3, 5e4);
+      for (int i = 0; i < 60; ++i) {
+        FrameLoad load = around;
+        load.triangles = i % 7 == 0 ? 0 : around.triangles * machine.between(0.5, 2);
+        load.groundMpx *= machine.between(0, 1);
+        if (i % 3 == 0) load.particles = machine.between(0, 1);
+        load.blurs = i % 5 == 0;
+        FrameCost cost;
+        cost.total = ms * machine.between(0.7, 1.3);
+        cost.weather = cost.blur = cost.total / 10;
+        cost.gpu = kNan;
+        model.observe(load, cost);
+        const CostModel::State state = model.state();
+        CostModel::State::forEachNumber(
+            state, [&](const std::string& key, double number, double low, double high) {
+              ASSERT_TRUE(number >= low && number <= high) << key << " = " << number << ", flight " << flight;
+            });
+      }
+    }
+  }
+}
+
+/// Numbers of a file that are in their ranges, but were never learned here.
+TEST(CostModel, thatPredictsNothingOfAHundredImagesBeginsAnewAndSaysWhy) {
+  Machine machine;
+  CostModel good;
+  for (int i = 0; i < 200; ++i) {
+    const FrameLoad load = machine.nextLoad();
+    good.observe(load, machine.cost(load));
+  }
+  CostModel::State state = good.state();
+  state.ground.coefficient[0] = 5e4;
+  for (std::size_t i = 0; i < 4; ++i) {
+    state.ground.scale[i] *= 1e-6;
+    for (std::size_t j = 0; j < 4; ++j) state.ground.covariance[i][j] *= 1e-12;
+  }
+  CostModel model;
+  model.restore(state);
+  int images = 0;
+  while (!model.whyAnew() && images < 1000) {
+    const FrameLoad load = machine.nextLoad();
+    model.observe(load, machine.cost(load));
+    ++images;
+  }
+  EXPECT_EQ(images, 100);
+  EXPECT_NE(toString(*model.whyAnew()).find("cost model: prediction: expected about "), std::string::npos);
+  for (int i = 0; i < 100; ++i) {
     const FrameLoad load = machine.nextLoad();
     model.observe(load, machine.cost(load));
   }
-  EXPECT_TRUE(recallCostModel(other, "GPU/one (rev 2)").empty())
-      << "nothing is there yet, which is no finding";
-  EXPECT_TRUE(rememberCostModel(model, "GPU/one (rev 2)").empty());
-  EXPECT_TRUE(rememberCostModel(model, "llvmpipe").empty());
-  EXPECT_NE(costModelFile("GPU/one (rev 2)"), costModelFile("llvmpipe"));
-  EXPECT_EQ(costModelFile("GPU/one (rev 2)").parent_path(), costModelFile("llvmpipe").parent_path());
-  EXPECT_TRUE(recallCostModel(other, "GPU/one (rev 2)").empty());
-  EXPECT_EQ(other.state().ground.coefficient, model.state().ground.coefficient);
-  EXPECT_TRUE(rememberCostModel(learned(), "new").empty());
-  EXPECT_FALSE(std::filesystem::exists(costModelFile("new"))) << "50 images are not worth it";
-  set ? ::setenv("XDG_CACHE_HOME", before.c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
+  const FrameLoad load = machine.nextLoad();
+  EXPECT_NEAR(predictedMs(model, load) / machine.cost(load).total, 1, 0.3);
+  EXPECT_FALSE(good.whyAnew());
 }
 
-TEST_F(CostModelFile, damageIsSaidWithItsLine) {
-  ASSERT_TRUE(writeCostModel(file, "llvmpipe", learned()).ok());
-  const std::string good = text();
-  for (const std::string& bad : {good.substr(0, good.size() / 2), std::string(), "x" + good, good + "7\n"}) {
-    rewrite(bad);
-    const auto state = readCostModel(file, "llvmpipe");
-    ASSERT_FALSE(state.ok());
-    EXPECT_NE(state.findings()[0].where.find("model.txt:"), std::string::npos);
+TEST(CostModel, whoseNumbersAreNotFiniteBeginsAnewAtOnceAndSaysSo) {
+  for (const double bad : {kNan, kInfinity}) {
+    Machine machine;
+    CostModel::State state;
+    {
+      CostModel good;
+      for (int i = 0; i < 50; ++i) {
+        const FrameLoad load = machine.nextLoad();
+        good.observe(load, machine.cost(load));
+      }
+      state = good.state();
+    }
+    state.ground.covariance[1][1] = bad;
+    CostModel model;
+    model.restore(state);
+    for (int i = 0; i < 100; ++i) {
+      const FrameLoad load = machine.nextLoad();
+      model.observe(load, machine.cost(load));
+    }
+    ASSERT_TRUE(model.whyAnew());
+    EXPECT_NE(toString(*model.whyAnew()).find("expected finite numbers"), std::string::npos);
+    EXPECT_TRUE(std::isfinite(predictedMs(model, machine.nextLoad())));
+    EXPECT_EQ(model.images(), 99U);
   }
-  std::string nan = good;
-  nan.replace(nan.find("llvmpipe\n") + 9,
-              nan.find('\n', nan.find("llvmpipe\n") + 9) - nan.find("llvmpipe\n") - 9, "nan");
-  rewrite(nan);
-  const auto state = readCostModel(file, "llvmpipe");
-  ASSERT_FALSE(state.ok());
-  EXPECT_NE(state.findings()[0].where.find(":3"), std::string::npos);
+}
+
+/// Three times as slow within an image, and as quick again: what is learned follows, and nothing begins
+/// anew.
+TEST(CostModel, ofAMachineThatChangesDoesNotBeginAnew) {
+  Machine machine;
+  CostModel model;
+  for (int i = 0; i < 2000; ++i) {
+    machine.slowness = i / 300 % 2 == 0 ? 1 : 3;
+    const FrameLoad load = machine.nextLoad();
+    model.observe(load, machine.cost(load));
+  }
+  EXPECT_FALSE(model.whyAnew());
 }
 
 }  // namespace

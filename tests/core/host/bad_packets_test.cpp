@@ -34,10 +34,10 @@ Bytes cut(Bytes bytes, std::size_t length) {
 
 const std::vector<BadPacket>& badPackets() {
   static const std::vector<BadPacket> table{
-      {"another version", [] { return native(0, std::uint32_t{25}); },
-       "byte 0: native-fdm version: expected 24, found 25"},
-      {"little-endian native-fdm", [] { return native(0, std::uint32_t{24U << 24U}); },
-       "byte 0: native-fdm version"},
+      {"version 0", [] { return native(0, std::uint32_t{0}); },
+       "byte 0: native-fdm version: expected 24, found 0"},
+      {"packed native-fdm", [] { return cut(encodeNativeFdm(aState()), 404); },
+       "byte 404: native-fdm length: expected 408 bytes, found 404 bytes"},
       {"latitude beyond the pole", [] { return native(16, 1.6); }, "byte 16: latitude: expected -90"},
       {"latitude no number", [] { return native(16, kNan); }, "byte 16: latitude: expected -90"},
       {"longitude infinite", [] { return native(8, kInfinity); }, "byte 8: longitude"},
@@ -49,9 +49,6 @@ const std::vector<BadPacket>& badPackets() {
       {"heading no number", [] { return native(44, static_cast<float>(kNan)); }, "byte 44: psi"},
       {"visibility negative", [] { return native(364, -1.0F); }, "byte 364: visibility"},
       {"agl no number", [] { return native(32, static_cast<float>(kNan)); }, "byte 32: agl"},
-      {"CIGI 4", [] { return cigi(2, std::uint8_t{4}); }, "byte 2: CIGI major version: expected 3, found 4"},
-      {"an image generator's message", [] { return encodeCigiStartOfFrame(1, 0, 0); },
-       "byte 0: CIGI packet id"},
       {"entity first", [] { return cigi(0, std::uint8_t{2}); }, "byte 0: CIGI packet id"},
       {"IG Control size", [] { return cigi(1, std::uint8_t{32}); }, "byte 1: size of IG Control"},
       {"IG Control cut", [] { return cut(cigi(0, std::uint8_t{1}), 20); }, "byte 20: length"},
@@ -87,7 +84,12 @@ TEST(BadPackets, areCountedWithPlaceAndReasonAndChangeNothingElse) {
     HostDecoder decoder;
     EXPECT_FALSE(feed(decoder, bytes, 1));
     EXPECT_EQ(decoder.statistics().bad, 1U);
+    EXPECT_EQ(decoder.statistics().notForUs, 0U);
     EXPECT_EQ(decoder.statistics().states, 0U);
+    ASSERT_TRUE(decoder.statistics().newestBad);
+    EXPECT_EQ(
+        toString(*decoder.statistics().newestBad).rfind(std::string("127.0.0.1:8004: ") + bad.reason, 0), 0U)
+        << toString(*decoder.statistics().newestBad);
     EXPECT_EQ(decoder.statistics().firstBadReason.rfind(bad.reason, 0), 0U)
         << decoder.statistics().firstBadReason;
     EXPECT_EQ(decoder.statistics().firstBadHex.empty(), bytes.empty());
@@ -107,6 +109,14 @@ TEST(BadPackets, areCountedWithPlaceAndReasonAndChangeNothingElse) {
     EXPECT_EQ(disturbed.statistics().jitterMs, undisturbed.statistics().jitterMs);
     EXPECT_EQ(disturbed.statistics().jumps, 0U);
   }
+}
+
+TEST(BadPackets, keepTheNewestReason) {
+  HostDecoder decoder;
+  feed(decoder, native(16, 1.6), 1);
+  feed(decoder, native(8, kInfinity), 2);
+  EXPECT_EQ(decoder.statistics().firstBadReason.rfind("byte 16", 0), 0U);
+  EXPECT_EQ(decoder.statistics().newestBad->key, "byte 8: longitude");
 }
 
 TEST(BadPackets, keepTheFirstInHex) {

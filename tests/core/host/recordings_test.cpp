@@ -63,6 +63,19 @@ TEST(RecordedNativeFdm, tellsOfItsSilenceAndJump) {
   EXPECT_EQ(held.position, flight->states[119].position);
 }
 
+TEST(RecordedCigi, tellsTheHostFromTheImageGeneratorThatAnswersIt) {
+  TRIMTAB_NEEDS_SHARED(kCigi);
+  const auto datagrams = readPcap(sharedDir() / kCigi);
+  ASSERT_TRUE(datagrams) << toString(datagrams.findings());
+  HostDecoder decoder;
+  for (const CapturedDatagram& d : *datagrams) decoder.accept({d.bytes, d.time, d.from});
+  EXPECT_EQ(decoder.statistics().states, 234U);
+  EXPECT_EQ(decoder.statistics().bad + decoder.statistics().notForUs, 0U);
+  ASSERT_EQ(decoder.otherSenders().size(), 1U);
+  EXPECT_EQ(decoder.otherSenders()[0].notForUs, 236U);
+  EXPECT_EQ(decoder.otherSenders()[0].bad, 0U);
+}
+
 TEST(RecordedCigi, decodesWholeWithTheDissectorsCounts) {
   TRIMTAB_NEEDS_SHARED(kCigi);
   const auto datagrams = readPcap(sharedDir() / kCigi);

@@ -82,9 +82,14 @@ TEST(SymbolStore, isEmptyAfterTheHostStartsAnew) {
   HostDecoder decoder;
   for (std::uint32_t i = 0; i < 10; ++i) feed(decoder, message(1000 + i, packetsOf(symbol(1))), 1 + i * 0.01);
   ASSERT_NE(decoder.symbols(), nullptr);
-  decoder.accept({message(1, {}), 20, "10.0.0.1:9"});
+  HostDecoder other = std::move(decoder);
+  decoder = HostDecoder();
+  for (std::uint32_t i = 0; i < 10; ++i) feed(decoder, message(1000 + i, packetsOf(symbol(1))), 1 + i * 0.01);
+  feed(decoder, message(1, {}), 20);
   EXPECT_EQ(decoder.statistics().restarts, 1U);
   EXPECT_EQ(decoder.symbols(), nullptr);
+  feed(other, message(1, {}), 1.2, "127.0.0.1:9");
+  EXPECT_EQ(other.symbols(), nullptr) << "at another port";
 }
 
 TEST(SymbolStore, followsShortControls) {

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <deque>
+#include <optional>
 
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/hold_decision.h"
 #include "trimtab/hold/linear_cost.h"
+#include "trimtab/units/result.h"
 
 /// Predicts what an image costs on this machine, and learns it while flying.
 namespace trimtab {
@@ -72,12 +74,15 @@ StageTimes stagesOf(const FrameCost& cost);
 class CostModel {
  public:
   /// Learns from an image. What it ran and nobody measured (FrameCost::kNotMeasured) teaches nothing. Times
-  /// that are not finite or not above 0 are ignored.
+  /// outside cost_bounds are ignored. A model that can predict nothing, because a number of it is not finite
+  /// or because a hundred predictions in a row were more than twice too long or too short, begins anew.
   void observe(const FrameLoad& load, const FrameCost& cost);
   /// Returns the coefficients, with the band for an image of this load.
   CostCoefficients coefficients(const FrameLoad& load) const;
   /// Returns how many images it has learned from.
   std::size_t images() const { return images_; }
+  /// Returns why it began anew for the first time; unset as long as it did not.
+  const std::optional<Finding>& whyAnew() const { return whyAnew_; }
 
   struct State {
     LinearCost<4>::State ground;
@@ -85,13 +90,32 @@ class CostModel {
     LinearCost<1>::State blur;
     double other = 0;
     double band = 0;  ///< standard deviations in the 90 % band
+
+    /// Calls `visit(key, number, low, high)` for each number, in the order of the file. Units are
+    /// milliseconds a unit of a quantity, triangles in ten thousands.
+    template <class Self, class Visit>
+    static void forEachNumber(Self& self, const Visit& visit) {
+      const auto under = [&visit](const char* name) {
+        return [&visit, name](const std::string& key, auto& number, double low, double high) {
+          visit(name + ('.' + key), number, low, high);
+        };
+      };
+      LinearCost<4>::State::forEachNumber(self.ground, under("ground"));
+      LinearCost<2>::State::forEachNumber(self.weather, under("weather"));
+      LinearCost<1>::State::forEachNumber(self.blur, under("blur"));
+      visit("other", self.other, 0.0, cost_bounds::kLongestMs);
+      visit("band", self.band, kLeastBand, kMostBand);
+    }
   };
+  static constexpr double kLeastBand = 0.3, kMostBand = 10;
   State state() const;
   /// Takes a saved state, with some distrust (LinearCost::restore).
   void restore(const State& state);
 
  private:
   void noteOther(double ms);
+  void noteFarOff(double predictedMs, double ms);
+  void beginAnew(Finding why);
 
   LinearCost<4> ground_;
   LinearCost<2> weather_;
@@ -101,6 +125,8 @@ class CostModel {
   double other_ = 0, band_ = kNormalBand;
   std::deque<double> others_;  ///< the last kOthers times of what `other_` is the median of
   std::size_t images_ = 0;
+  int farOff_ = 0;  ///< predictions in a row
+  std::optional<Finding> whyAnew_;
 };
 
 }  // namespace trimtab

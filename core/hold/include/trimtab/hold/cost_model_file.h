@@ -15,11 +15,12 @@ namespace trimtab {
 std::string machineName(const std::string& glRenderer);
 
 /// Writes a model with the name of the machine that it was learned on. The file is the old one or the whole
-/// new one, whatever happens on the way.
+/// new one, whatever happens on the way. A model that could not be read again is a finding, and not written.
 Result<Done> writeCostModel(const std::filesystem::path& file, const std::string& machine,
                             const CostModel& model);
-/// Reads a model. Damage, numbers that no model can have, and a model of another machine are findings that
-/// name what was found; a caller then begins without one.
+/// Reads a model. Damage, each number that no model can have (CostModel::State::forEachNumber), and a model
+/// of another machine are findings that name line, number, range and what was found; a caller then begins
+/// without one.
 Result<CostModel::State> readCostModel(const std::filesystem::path& file, const std::string& machine);
 
 /// Returns where programs keep the model of a machine: a file of its own, named after it, in trimtab's folder

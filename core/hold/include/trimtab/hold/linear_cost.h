@@ -4,8 +4,21 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace trimtab {
+
+/// What can be measured, and so what can be learned. Times are milliseconds.
+namespace cost_bounds {
+inline constexpr double kShortestMs = 1e-6, kLongestMs = 60e3;
+/// Of a quantity that is not 0: a pixel in millions of them, and ten thousand million triangles by the side
+/// of a scene, in ten thousands and thousands of pixels.
+inline constexpr double kLeastQuantity = 1e-6, kMostQuantity = 1e8;
+/// Of what one unit of a quantity costs.
+inline constexpr double kLeastScale = kShortestMs / kMostQuantity / 10,
+                        kMostCost = kLongestMs / kLeastQuantity;
+inline constexpr double kMostImages = 1e12;
+}  // namespace cost_bounds
 
 /// Learns a time as a sum of coefficients times quantities, one image at a time: a Kalman filter whose
 /// coefficients may drift. It needs no scale of its own: the first image gives one. A first image that takes
@@ -34,11 +47,11 @@ class LinearCost {
     return std::sqrt(std::max(variance, 0.0));
   }
 
-  /// Learns from a measured time. Values that are not finite, and times that are not above 0, are ignored.
+  /// Learns from a measured time. Quantities and times outside cost_bounds are ignored.
   void observe(const Quantities& x, double ms) {
     for (const double quantity : x)
-      if (!std::isfinite(quantity)) return;
-    if (!std::isfinite(ms) || !(ms > 0)) return;
+      if (!(std::abs(quantity) <= cost_bounds::kMostQuantity)) return;
+    if (!(ms >= cost_bounds::kShortestMs && ms <= cost_bounds::kLongestMs)) return;
     if (state_.images == 0 || (state_.images < kFirst && ms < firstMs_ / 2)) begin(x, ms);
     ++state_.images;
     const double error = ms - predict(x);
@@ -55,7 +68,8 @@ class LinearCost {
     keepCostsPositive();
     for (std::size_t i = 0; i < N; ++i) drift(i);
     state_.noise += kNoiseGain * (counted * counted - known - state_.noise);
-    state_.noise = std::max(state_.noise, kLeastNoise * ms * kLeastNoise * ms);
+    state_.noise = std::clamp(state_.noise, kLeastNoise * ms * kLeastNoise * ms,
+                              cost_bounds::kLongestMs * cost_bounds::kLongestMs);
   }
 
   struct State {
@@ -65,22 +79,44 @@ class LinearCost {
     double noise = 0;    ///< variance of a time around its prediction
     double images = 0;
 
-    /// Reports whether it can have been learned: costs, scales and variances are at least 0, no covariance
-    /// exceeds what its variances allow, and if it has learned, a time has a variance.
-    bool canBe() const {
-      const auto isBelow = [](double low, double value) { return !(low <= value) || !std::isfinite(value); };
-      if (isBelow(0, noise) || isBelow(0, images) || (images > 0 && noise == 0)) return false;
-      for (std::size_t i = 0; i < N; ++i) {
-        if (isBelow(0, coefficient[i]) || isBelow(0, scale[i]) || isBelow(0, covariance[i][i])) return false;
-        for (std::size_t j = 0; j < i; ++j) {
-          const double both = covariance[i][i] * covariance[j][j],
-                       square = covariance[i][j] * covariance[i][j];
-          // Rounding may leave them a little apart.
-          if (isBelow(square, both * (1 + 1e-6)) && square > 1e-12 * both) return false;
-          if (std::abs(covariance[i][j] - covariance[j][i]) > 1e-6 * std::sqrt(both)) return false;
+    /// Calls `visit(key, number, low, high)` for each number, with the range that it can have been learned
+    /// in. What has seen no image is all zeros. An uncertainty is at most the scale, and at least what a
+    /// coefficient drifts by in an image; a covariance is at most what its variances allow.
+    template <class Self, class Visit>
+    static void forEachNumber(Self& self, const Visit& visit) {
+      namespace bounds = cost_bounds;
+      // Rounding may leave numbers a little beyond.
+      constexpr double kRounded = 1 + 1e-6;
+      const bool learned = self.images != 0;
+      const auto either = [learned](double bound) { return learned ? bound : 0; };
+      const auto place = [](std::size_t i) { return '[' + std::to_string(i) + ']'; };
+      for (std::size_t i = 0; i < N; ++i)
+        visit("coefficient" + place(i), self.coefficient[i], 0.0, either(bounds::kMostCost));
+      for (std::size_t i = 0; i < N; ++i)
+        for (std::size_t j = 0; j < N; ++j) {
+          const double both = self.scale[i] * self.scale[j];
+          double low = kLeastVariance * both, high = kRounded * both;
+          if (i != j) {
+            // Symmetric, and no farther from 0 than the variances allow.
+            const double most = kRounded * std::sqrt(self.covariance[i][i] * self.covariance[j][j]);
+            const double other = j < i ? self.covariance[j][i] : 0, off = j < i ? most * 1e-6 : most;
+            low = std::max(other - off, -most), high = std::min(other + off, most);
+          }
+          visit("covariance" + place(i) + place(j), self.covariance[i][j], either(low), either(high));
         }
+      for (std::size_t i = 0; i < N; ++i)
+        visit("scale" + place(i), self.scale[i], either(bounds::kLeastScale), either(bounds::kMostCost));
+      constexpr double kLeast = kLeastNoise * bounds::kShortestMs;
+      visit("noise", self.noise, either(kLeast * kLeast), either(bounds::kLongestMs * bounds::kLongestMs));
+      visit("images", self.images, 0.0, bounds::kMostImages);
+    }
+    bool isFinite() const {
+      double sum = noise + images;
+      for (std::size_t i = 0; i < N; ++i) {
+        sum += coefficient[i] + scale[i];
+        for (const double c : covariance[i]) sum += c;
       }
-      return true;
+      return std::isfinite(sum);
     }
   };
   const State& state() const { return state_; }
@@ -88,8 +124,7 @@ class LinearCost {
   /// machine may have changed since.
   void restore(const State& state) {
     state_ = state;
-    for (std::size_t i = 0; i < N; ++i)
-      state_.covariance[i][i] += kDistrust * state_.scale[i] * kDistrust * state_.scale[i];
+    for (std::size_t i = 0; i < N; ++i) loosen(i, kDistrust);
   }
 
  private:
@@ -97,6 +132,8 @@ class LinearCost {
   /// Drift of a coefficient in one image, as a part of its scale: the first (what is there in every image)
   /// within some tens of images, the others within some hundreds.
   static constexpr double kFirstDrift = 0.007, kDrift = 0.002;
+  static constexpr double kLeastVariance =
+      kDrift * kDrift / 2;  ///< of a coefficient, in squares of its scale
   static constexpr int kChange = 5;
   static constexpr double kFirst = 8;  ///< images among which the first may be forgotten
 
@@ -104,7 +141,8 @@ class LinearCost {
     state_ = {};
     firstMs_ = ms;
     for (std::size_t i = 0; i < N; ++i) {
-      state_.scale[i] = ms / static_cast<double>(N) / (x[i] > 0 ? x[i] : 1);
+      state_.scale[i] =
+          ms / static_cast<double>(N) / (x[i] > 0 ? std::max(x[i], cost_bounds::kLeastQuantity) : 1);
       state_.coefficient[i] = x[i] > 0 ? state_.scale[i] : 0;
       state_.covariance[i][i] = state_.scale[i] * state_.scale[i];
     }
@@ -137,8 +175,11 @@ class LinearCost {
     return product;
   }
 
-  void drift(std::size_t i) {
-    const double step = (i == 0 ? kFirstDrift : kDrift) * state_.scale[i];
+  void drift(std::size_t i) { loosen(i, i == 0 ? kFirstDrift : kDrift); }
+
+  /// Makes a coefficient less certain by a part of its scale.
+  void loosen(std::size_t i, double partOfScale) {
+    const double step = partOfScale * state_.scale[i];
     state_.covariance[i][i] += step * step;
     // Never less known than at the beginning. Scaling row and column keeps the matrix a covariance.
     const double part = state_.scale[i] / std::sqrt(state_.covariance[i][i]);

@@ -7,10 +7,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/host_symbols.h"
 #include "trimtab/host/byte_order.h"
+#include "trimtab/units/result.h"
 
 /// Decodes a host's datagrams to aircraft states. It sees bytes, addresses and times only; sockets are in
 /// app/link.
@@ -24,20 +26,25 @@ struct Datagram {
 
 enum class WireProtocol { none, native_fdm, cigi3 };
 
-/// The health of a link, as the Host dock shows it. Counters only grow, except `lost`, which a late packet
-/// lowers again, and `implausible`, which the second packet of a new count lowers.
+/// The health of one sender's link, as the Host dock shows it. Counters only grow, except `lost`, which a
+/// late packet lowers again, and `implausible`, which the second packet of a new count lowers.
 struct HostStatistics {
+  std::string from;  ///< the sender that all this is of, "127.0.0.1:5500"; empty before the first datagram
   WireProtocol protocol = WireProtocol::none;
   std::uint64_t received = 0;  ///< datagrams
   std::uint64_t states = 0;    ///< decoded to a state
-  std::uint64_t bad = 0;       ///< refused
+  std::uint64_t bad = 0;       ///< refused: damaged, or nothing that is known
+  /// Undamaged, but for someone else: another protocol or version, an image generator's own message, or a
+  /// message of other entities while the ownship, entity 0, has not come.
+  std::uint64_t notForUs = 0;
+  std::uint64_t alongside = 0;  ///< datagrams that came while another sender was followed
   std::uint64_t truncated =
       0;                       ///< CIGI messages whose tail was dropped at a packet of size 0 or past the end
   std::uint64_t notReady = 0;  ///< states below -1,000 ft: the simulator has not placed its aircraft yet
   std::uint64_t repeated = 0;  ///< with the same frame number again
   std::uint64_t reordered = 0;        ///< late: with an older frame number than one already seen; not decided
   std::uint64_t implausible = 0;      ///< with a frame number far from all others; not decided
-  std::uint64_t restarts = 0;         ///< how often the host, or another one, began to count frames anew
+  std::uint64_t restarts = 0;         ///< how often the host began to count frames anew
   std::optional<std::uint64_t> lost;  ///< by frame numbers; unset if the protocol has none (native-fdm)
   double rateHz = 0;                  ///< over the last second
   double jitterMs = 0;     ///< RFC 3550, 6.4.1, from the host's time stamps, else from even spacing
@@ -45,6 +52,11 @@ struct HostStatistics {
   std::string lastFrom;
   std::string firstBadHex;     ///< of the first bad or truncated datagram, at most 256 bytes
   std::string firstBadReason;  ///< byte offset, expected, found
+  /// Why the newest of `bad`, of `notForUs`, and of the host's own datagrams led to no state: the sender, the
+  /// byte or field, what was expected, what was found, and after a semicolon what to do. toString() makes one
+  /// line of it. Unset if there was none; `newestUnused` also once a state has followed. What it names is no
+  /// ownship so far, an aircraft that is not ready, or a frame number that is repeated, late or implausible.
+  std::optional<Finding> newestBad, newestNotForUs, newestUnused;
   std::uint64_t jumps =
       0;  ///< position changes too large for any aircraft, or of more than a kilometre across a silence
   std::uint64_t regionalWeather = 0;  ///< CIGI Weather Control of a region or an entity, which is ignored
@@ -69,15 +81,28 @@ class HostDecoder {
   /// Returns a datagram's state; nothing if it is bad, repeated, late, implausible, not ready, or carries no
   /// ownship yet.
   std::optional<AircraftState> accept(const Datagram& datagram);
-  /// Returns the link's health, valid until reset(). `rateHz` is as of the last good datagram.
+  /// Returns the health of the sender that is followed, valid until the next accept(). `rateHz` is as of its
+  /// last good datagram. Every sender (an address with its port) has counters, a clock and a memory of its
+  /// own, and states of all of them are returned by accept(). A host is followed from its first good datagram
+  /// on, because that is what a restarted one looks like, and one that was heard before is followed again
+  /// when the followed one has been silent for two seconds. Senders of nothing good are followed only where
+  /// there is no host.
   const HostStatistics& statistics() const;
+  /// Returns the health of the senders that are not followed, in no order. Of more than a few, those that
+  /// were not heard for longest are forgotten.
+  std::vector<HostStatistics> otherSenders() const;
+  /// Returns how many datagrams came, of all senders.
+  std::uint64_t received() const;
+  /// Reports whether the last datagram was a host's: neither bad nor of another protocol.
+  bool understood() const;
   /// Returns the rate of the good datagrams in the second before `now`, Hz. It is 0 a second after the last.
   double rateAt(double now) const;
-  /// Returns the symbols that the host has defined so far; null if none. A change makes another object, so
-  /// equal pointers mean equal symbols. A symbol lasts until the host destroys it or restarts.
+  /// Returns the symbols that the host of the newest good datagram has defined so far; null if none. A change
+  /// makes another object, so equal pointers mean equal symbols. A symbol lasts until the host destroys it or
+  /// restarts.
   std::shared_ptr<const HostSymbols> symbols() const;
-  /// These return the frame number and byte order of the newest CIGI message for a Start of Frame; at first
-  /// nothing and big.
+  /// These return the frame number and byte order of the newest good datagram for a Start of Frame; nothing
+  /// and big if it is not CIGI.
   std::optional<std::uint32_t> lastHostFrame() const;
   ByteOrder hostOrder() const;
   /// Forgets everything but the protocol that was asked for.

@@ -1,0 +1,79 @@
+#include "link_watch.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace trimtab::link {
+namespace {
+
+std::string number(std::uint64_t count) {
+  return std::to_string(count);
+}
+
+std::string newest(const std::optional<Finding>& finding) {
+  return "; the newest from " + toString(finding.value_or(Finding{}));
+}
+
+}  // namespace
+
+std::vector<LinkWatch::Reason> LinkWatch::reasons(const HostStatistics& followed, const Senders& senders,
+                                                  double now) const {
+  std::vector<Reason> all;
+  const auto addUnusable = [&all](const HostStatistics& s) {
+    const std::string of = " of " + number(s.received) + " datagrams ";
+    all.push_back({"bad " + s.from, s.bad, number(s.bad) + of + "refused" + newest(s.newestBad)});
+    all.push_back({"other " + s.from, s.notForUs,
+                   number(s.notForUs) + of + "are for someone else" + newest(s.newestNotForUs)});
+  };
+  addUnusable(followed);
+  for (const HostStatistics& other : senders.others) {
+    addUnusable(other);
+    if (other.states > 0 && other.alongside > 1 && followed.states > 0)
+      all.push_back(
+          {"two " + other.from, other.alongside,
+           "two hosts send: " + number(other.received) + " datagrams of " + other.from + " beside " +
+               number(followed.received) + " of " + followed.from +
+               ", and what both say is drawn in turn; end one, or allow one address alone (--from)"});
+  }
+  all.push_back({"refused", senders.refused,
+                 number(senders.refused) + " datagrams of others than " + senders.allowed +
+                     " thrown away; the newest from " + senders.lastRefused + "; --from says who may send"});
+  const std::string time = number(static_cast<std::uint64_t>(kPeriodS)) + " s";
+  if (followed.newestUnused && now - stateAt_ >= kPeriodS)
+    all.push_back({"unused " + followed.from, followed.received,
+                   "no new state for " + time + newest(followed.newestUnused)});
+  return all;
+}
+
+std::optional<std::string> LinkWatch::look(const HostStatistics& followed, const Senders& senders,
+                                           double now) {
+  if (!begin_) begin_ = now;
+  if (!followed.newestUnused) stateAt_ = now;
+  if (saidAt_ && now - *saidAt_ < kPeriodS) return std::nullopt;
+  const std::string port = "UDP port " + number(port_);
+  if (senders.received + senders.refused == 0) {
+    if (saidAt_ || now - *begin_ < kPeriodS) return std::nullopt;
+    saidAt_ = now;
+    std::string line =
+        "nothing has arrived on " + port + " for " + number(static_cast<std::uint64_t>(kPeriodS)) + " s";
+    if (address_ == kOwnMachine)
+      line += "; only this machine can send to " + address_ + ", until --bind names another interface";
+    return line;
+  }
+  const std::vector<Reason> all = reasons(followed, senders, now);
+  std::erase_if(said_, [&all](const auto& said) {
+    return std::none_of(all.begin(), all.end(), [&said](const Reason& r) { return r.what == said.first; });
+  });
+  const auto growth = [this](const Reason& reason) {
+    const auto said = said_.find(reason.what);
+    return reason.datagrams - std::min(reason.datagrams, said == said_.end() ? 0 : said->second);
+  };
+  const auto most = std::max_element(all.begin(), all.end(),
+                                     [&](const Reason& a, const Reason& b) { return growth(a) < growth(b); });
+  if (growth(*most) == 0) return std::nullopt;
+  saidAt_ = now;
+  said_[most->what] = most->datagrams;
+  return port + ": " + most->text;
+}
+
+}  // namespace trimtab::link

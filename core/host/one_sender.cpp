@@ -1,0 +1,262 @@
+#include "one_sender.h"
+
+#include <algorithm>
+
+#include "limits.h"
+#include "native_fdm.h"
+#include "other_protocol.h"
+#include "packet_fault.h"
+#include "trimtab/host/motion.h"
+
+namespace trimtab {
+namespace {
+
+std::string hex(std::span<const std::byte> bytes) {
+  constexpr std::size_t kMost = 256;
+  constexpr char kDigits[] = "0123456789abcdef";
+  const std::size_t count = std::min(bytes.size(), kMost);
+  std::string text(count * 3, ' ');
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto b = std::to_integer<unsigned>(bytes[i]);
+    text[i * 3] = kDigits[b >> 4U];
+    text[i * 3 + 1] = kDigits[b & 15U];
+  }
+  if (count > 0) text.pop_back();
+  return text;
+}
+
+bool isIgControl(std::span<const std::byte> bytes) {
+  return cigi3::byteOrder(bytes) && std::to_integer<int>(bytes[0]) == cigi3::kIgControl &&
+         std::to_integer<int>(bytes[2]) == 3;
+}
+
+/// What neither protocol claims: why not.
+PacketFault neither(std::span<const std::byte> bytes, WireProtocol last) {
+  const bool version =
+      bytes.size() >= 4 && wire::get<std::uint32_t>(bytes, 0, ByteOrder::big) == native_fdm::kVersion;
+  const bool likeNativeFdm = version || bytes.size() == native_fdm::kSize || last == WireProtocol::native_fdm;
+  AircraftState unused;
+  cigi3::Session session;
+  if (likeNativeFdm)
+    if (const auto fault = native_fdm::parse(bytes, unused)) return *fault;
+  if (cigi3::byteOrder(bytes) || last == WireProtocol::cigi3)
+    if (const auto fault = cigi3::parse(bytes, session).fault) return *fault;
+  return {0, "datagram", "FlightGear native-fdm 24 (408 bytes) or a CIGI 3 message from a host",
+          std::to_string(bytes.size()) + " bytes of neither"};
+}
+
+std::string_view addressOf(std::string_view from) {
+  return from.substr(0, from.rfind(':'));
+}
+
+}  // namespace
+
+std::optional<double> HostClock::advance(std::uint32_t ticks) {
+  if (!last_) {
+    seconds_ = ticks * cigi3::kTickS;
+  } else {
+    const auto step = static_cast<std::int32_t>(ticks - *last_);
+    // Counted in ticks, so that no rounding adds up and two receivers get the same number.
+    if (step < 0 && ticks > *last_) --wraps_;
+    if (step > 0 && ticks < *last_) ++wraps_;
+    seconds_ = (static_cast<double>(wraps_) * 4294967296.0 + ticks) * cigi3::kTickS;
+    stuck_ = step > 0 ? 0 : stuck_ + 1;
+  }
+  last_ = ticks;
+  constexpr int kStuck = 3;
+  return stuck_ < kStuck ? std::optional(seconds_) : std::nullopt;
+}
+
+WireProtocol OneSender::detect(std::span<const std::byte> bytes) const {
+  if (wanted_ == HostProtocol::native_fdm) return WireProtocol::native_fdm;
+  if (wanted_ == HostProtocol::cigi3) return WireProtocol::cigi3;
+  if (native_fdm::matches(bytes)) return WireProtocol::native_fdm;
+  return isIgControl(bytes) ? WireProtocol::cigi3 : WireProtocol::none;
+}
+
+std::optional<AircraftState> OneSender::accept(const Datagram& datagram) {
+  ++statistics_.received;
+  ++ofThisPort_;
+  lastHeard_ = datagram.arrival;
+  understood_ = false;
+  switch (detect(datagram.bytes)) {
+    case WireProtocol::native_fdm:
+      return acceptNativeFdm(datagram);
+    case WireProtocol::cigi3:
+      return acceptCigi(datagram);
+    case WireProtocol::none:
+      break;
+  }
+  refuse(datagram, neither(datagram.bytes, statistics_.protocol));
+  return std::nullopt;
+}
+
+bool OneSender::goesOnWith(const Datagram& datagram) const {
+  constexpr std::size_t kFrame = 8, kAfterFrame = 12;
+  if (ofThisPort_ != 1 || addressOf(datagram.from) != addressOf(statistics_.from) || !order_.last())
+    return false;
+  if (datagram.bytes.size() < kAfterFrame || !isIgControl(datagram.bytes)) return false;
+  const ByteOrder order = *cigi3::byteOrder(datagram.bytes);
+  return wire::get<std::uint32_t>(datagram.bytes, kFrame, order) == *order_.last() + 1;
+}
+
+void OneSender::keepFirstBad(std::span<const std::byte> bytes, const PacketFault& fault) {
+  if (!statistics_.firstBadReason.empty()) return;
+  statistics_.firstBadReason = toString(fault);
+  statistics_.firstBadHex = hex(bytes);
+}
+
+void OneSender::refuse(const Datagram& datagram, const PacketFault& fault) {
+  if (const auto other = otherProtocol(datagram.bytes)) {
+    ++statistics_.notForUs;
+    statistics_.newestNotForUs = toFinding(*other, statistics_.from);
+    return;
+  }
+  ++statistics_.bad;
+  const PacketFault told = otherThanWanted(datagram.bytes).value_or(fault);
+  keepFirstBad(datagram.bytes, told);
+  statistics_.newestBad = toFinding(told, statistics_.from);
+}
+
+std::optional<PacketFault> OneSender::otherThanWanted(std::span<const std::byte> bytes) const {
+  constexpr const char* kRemedy = "ask for the protocol that the host speaks, or for auto";
+  if (wanted_ == HostProtocol::cigi3 && native_fdm::matches(bytes))
+    return PacketFault{0, "protocol", "CIGI 3, as was asked for", "native-fdm 24", kRemedy};
+  if (wanted_ == HostProtocol::native_fdm && isIgControl(bytes))
+    return PacketFault{0, "protocol", "native-fdm 24, as was asked for", "CIGI 3", kRemedy};
+  return std::nullopt;
+}
+
+void OneSender::heard(const Datagram& datagram, WireProtocol protocol, bool silence) {
+  if (silence) {
+    ++statistics_.silences;
+    meter_.restart();
+  }
+  understood_ = true;
+  ++understoodCount_;
+  meter_.arrived(datagram.arrival);
+  statistics_.protocol = protocol;
+  statistics_.lastArrival = datagram.arrival;
+  statistics_.lastFrom = datagram.from;
+  statistics_.rateHz = meter_.rateAt(datagram.arrival);
+  statistics_.jitterMs = meter_.jitterS() * 1e3;
+}
+
+std::optional<AircraftState> OneSender::unused(std::string what, std::string expected, std::string found) {
+  statistics_.newestUnused =
+      Finding{Severity::warning, statistics_.from, std::move(what), std::move(expected), std::move(found)};
+  return std::nullopt;
+}
+
+std::optional<AircraftState> OneSender::finish(const AircraftState& state, double gapS, bool silence) {
+  if (state.position.height.value() < limits::kReady) {
+    ++statistics_.notReady;
+    return unused("altitude", "at least -1,000 ft",
+                  std::to_string(static_cast<long>(state.position.height.in<Feet>())) +
+                      " ft: the simulator has not placed its aircraft yet");
+  }
+  if (lastState_) {
+    const double onHostClock = state.time - lastState_->time;
+    if (isJump(lastState_->position, state.position, onHostClock > 0 ? onHostClock : gapS, silence))
+      ++statistics_.jumps;
+  }
+  ++statistics_.states;
+  statistics_.newestUnused.reset();
+  lastState_ = state;
+  return state;
+}
+
+std::optional<AircraftState> OneSender::acceptNativeFdm(const Datagram& datagram) {
+  AircraftState state;
+  if (const auto fault = native_fdm::parse(datagram.bytes, state)) {
+    refuse(datagram, *fault);
+    return std::nullopt;
+  }
+  const double gap = gapTo(datagram);
+  const bool silence = gap > kSilenceS,
+             known = statistics_.protocol == WireProtocol::native_fdm && gap > 0 && !silence;
+  if (const double even = meter_.meanGapS(); known && even > 0) meter_.deviated(gap - even);
+  statistics_.lost.reset();
+  heard(datagram, WireProtocol::native_fdm, silence);
+  state.time = datagram.arrival;
+  return finish(state, gap, silence);
+}
+
+std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram) {
+  // Into a copy: a message that turns out bad at its last packet has changed nothing.
+  cigi3::Session candidate = session_;
+  const cigi3::Message message = cigi3::parse(datagram.bytes, candidate);
+  if (message.fault) {
+    refuse(datagram, *message.fault);
+    return std::nullopt;
+  }
+  if (message.cutAt) {
+    ++statistics_.truncated;
+    keepFirstBad(datagram.bytes, *message.cutAt);
+  }
+  const double gap = gapTo(datagram);
+  const bool silence = gap > kSilenceS;
+  const auto verdict = order_.accept(message.frame, silence);
+  statistics_.lost = order_.lost();
+  statistics_.implausible = order_.implausible();
+  if (verdict != FrameOrder::Verdict::next && verdict != FrameOrder::Verdict::restarted) {
+    statistics_.repeated += verdict == FrameOrder::Verdict::repeated;
+    statistics_.reordered += verdict == FrameOrder::Verdict::reordered;
+    heard(datagram, WireProtocol::cigi3, silence);
+    return unused("frame number of IG Control",
+                  "one that rises, above " + std::to_string(order_.last().value_or(0)),
+                  std::to_string(message.frame));
+  }
+  const bool restarted = verdict == FrameOrder::Verdict::restarted;
+  if (restarted) {
+    ++statistics_.restarts;
+    clock_.restart();
+    candidate = {};
+    static_cast<void>(cigi3::parse(datagram.bytes, candidate));
+  }
+  session_ = candidate;
+  statistics_.regionalWeather += static_cast<std::uint64_t>(message.regionalWeather);
+  statistics_.otherLayers += static_cast<std::uint64_t>(message.otherLayers);
+  statistics_.symbolPackets += static_cast<std::uint64_t>(message.symbolPackets);
+  statistics_.refusedSymbols += static_cast<std::uint64_t>(message.refusedSymbols);
+  if (message.symbolFault && statistics_.firstSymbolReason.empty())
+    statistics_.firstSymbolReason = toString(*message.symbolFault);
+  hostOrder_ = message.order;
+
+  const auto hostTime = message.ticks ? clock_.advance(*message.ticks) : std::nullopt;
+  const double time = hostTime.value_or(datagram.arrival);
+  if (gap > 0 && !silence && !restarted && lastState_) {
+    const double even = meter_.meanGapS() * order_.step();
+    if (hostTime && time > lastState_->time)
+      meter_.deviated(gap - (time - lastState_->time));
+    else if (!hostTime && even > 0)
+      meter_.deviated(gap - even);
+  }
+  heard(datagram, WireProtocol::cigi3, silence);
+  if (!session_.position) return withoutOwnship(message);
+  AircraftState state;
+  state.time = time;
+  state.packet = message.frame;
+  state.position = *session_.position;
+  state.attitude = session_.attitude;
+  state.head = session_.head;
+  state.visibility = session_.visibility;
+  state.weather = session_.weather();
+  state.wind = session_.wind();
+  state.view = session_.view;
+  return finish(state, gap, silence);
+}
+
+std::optional<AircraftState> OneSender::withoutOwnship(const cigi3::Message& message) {
+  if (!message.otherEntity)
+    return unused("Entity Control", "entity 0, the ownship", "none so far, or it was destroyed");
+  ++statistics_.notForUs;
+  PacketFault fault = *message.otherEntity;
+  if (message.otherEntities > 1)
+    fault.found += " and " + std::to_string(message.otherEntities - 1) + " others";
+  fault.found += " only";
+  statistics_.newestNotForUs = toFinding(fault, statistics_.from);
+  return std::nullopt;
+}
+
+}  // namespace trimtab

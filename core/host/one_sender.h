@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cigi3.h"
+#include "frame_order.h"
+#include "rate_meter.h"
+#include "trimtab/host/decoder.h"
+
+namespace trimtab {
+
+/// Seconds of a 32-bit tick counter that wraps; useless once it stands still while frames go on.
+class HostClock {
+ public:
+  void restart() { *this = HostClock(); }
+  std::optional<double> advance(std::uint32_t ticks);
+
+ private:
+  std::optional<std::uint32_t> last_;
+  std::int64_t wraps_ = 0;
+  double seconds_ = 0;
+  int stuck_ = 0;
+};
+
+/// Decodes what one sender sends: what its datagrams add up to, and the health of its link.
+class OneSender {
+ public:
+  OneSender(std::string from, HostProtocol wanted) : wanted_(wanted) { statistics_.from = std::move(from); }
+
+  /// As HostDecoder::accept, but for `packet` of a protocol that carries no number.
+  std::optional<AircraftState> accept(const Datagram& datagram);
+  const HostStatistics& statistics() const { return statistics_; }
+  const RateMeter& meter() const { return meter_; }
+  const std::shared_ptr<const HostSymbols>& symbols() const { return session_.symbols; }
+  std::optional<std::uint32_t> lastFrame() const { return order_.last(); }
+  ByteOrder byteOrder() const { return hostOrder_; }
+
+  /// Reports whether the last datagram was a host's, which is neither bad nor of another protocol.
+  bool understood() const { return understood_; }
+  /// Reports whether any of its datagrams was.
+  bool isHost() const { return understoodCount_ > 0; }
+  /// Reports whether the last datagram is the first one of a host, or the first of one that is none so far.
+  bool isNew() const { return isHost() ? understood_ && understoodCount_ == 1 : statistics_.received == 1; }
+  double lastHeard() const { return lastHeard_; }
+
+  /// Reports whether a datagram from another port of the same address is this host's next one: some hosts
+  /// open a socket for each message, and so none of their ports is heard twice.
+  bool goesOnWith(const Datagram& datagram) const;
+  void moveTo(const std::string& from) {
+    statistics_.from = from;
+    ofThisPort_ = 0;
+  }
+  void noteAlongside() { ++statistics_.alongside; }
+
+ private:
+  WireProtocol detect(std::span<const std::byte> bytes) const;
+  void refuse(const Datagram& datagram, const PacketFault& fault);
+  /// Says that a datagram is the other protocol's, where one was asked for.
+  std::optional<PacketFault> otherThanWanted(std::span<const std::byte> bytes) const;
+  void keepFirstBad(std::span<const std::byte> bytes, const PacketFault& fault);
+  /// A host's datagram: link health that does not depend on what it says.
+  void heard(const Datagram& datagram, WireProtocol protocol, bool silence);
+  std::optional<AircraftState> acceptNativeFdm(const Datagram& datagram);
+  std::optional<AircraftState> acceptCigi(const Datagram& datagram);
+  std::optional<AircraftState> finish(const AircraftState& state, double gapS, bool silence);
+  std::optional<AircraftState> withoutOwnship(const cigi3::Message& message);
+  /// Says why a host's datagram leads to no state; returns none.
+  std::optional<AircraftState> unused(std::string what, std::string expected, std::string found);
+  double gapTo(const Datagram& datagram) const {
+    return statistics_.lastArrival > 0 ? datagram.arrival - statistics_.lastArrival : 0;
+  }
+
+  HostProtocol wanted_;
+  HostStatistics statistics_;
+  RateMeter meter_;
+  std::optional<AircraftState> lastState_;
+  std::uint64_t understoodCount_ = 0;
+  std::uint64_t ofThisPort_ = 0;  ///< datagrams
+  bool understood_ = false;
+  double lastHeard_ = 0;  ///< arrival of the last datagram, good or bad
+
+  cigi3::Session session_;
+  FrameOrder order_;
+  HostClock clock_;
+  ByteOrder hostOrder_ = ByteOrder::big;
+};
+
+}  // namespace trimtab

@@ -1,0 +1,112 @@
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <optional>
+
+#include "ig_support.h"
+
+/// What images cost, kept from one run of the image generator to the next in the folder of the user's caches.
+namespace trimtab {
+namespace {
+
+using test::IgProcess;
+using testing::HasSubstr;
+using testing::Not;
+
+/// The first number of a model is in this line of its file.
+constexpr std::size_t kFirst = 2;
+
+class IgCostModel : public testing::Test {
+ protected:
+  IgCostModel() {
+    if (const char* set = std::getenv("XDG_CACHE_HOME")) before_ = set;
+    ::setenv("XDG_CACHE_HOME", dir_.path().c_str(), 1);
+    const auto held = test::edited([](TuningParameters& p) { p.hold.enabled = true; });
+    test::writeFile(dir_ / "preset.json", test::exported(held));
+    test::writeFile(dir_ / "flight.csv", flightCsv(test::weavingFlight(300)));
+  }
+  ~IgCostModel() override {
+    before_ ? ::setenv("XDG_CACHE_HOME", before_->c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
+  }
+
+  struct Flown {
+    std::string err;
+    std::uint64_t unknown = 0;  ///< images whose cost was not known yet
+  };
+  Flown fly() const {
+    IgProcess ig({"--preset", (dir_ / "preset.json").string(), "--terrain", test::smallTerrain().string(),
+                  "--flight", (dir_ / "flight.csv").string(), "--headless", "--size", "160x100", "--json"});
+    EXPECT_EQ(ig.end(), 0) << ig.err();
+    return {ig.err(), ig.summary()["hold"]["cost_unknown"]};
+  }
+  std::filesystem::path file() const {
+    for (const auto& entry : std::filesystem::directory_iterator(dir_ / "trimtab")) return entry.path();
+    return {};
+  }
+  std::vector<std::string> lines() const {
+    std::istringstream in(test::readFile(file()));
+    std::vector<std::string> all;
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    return all;
+  }
+  void write(const std::vector<std::string>& lines) const {
+    std::string text;
+    for (const std::string& line : lines) text += line + '\n';
+    test::writeFile(file(), text);
+  }
+
+  test::ScratchDir dir_;
+  std::optional<std::string> before_;
+};
+
+TEST_F(IgCostModel, withANumberThatNoneCanHaveIsNamedAndLearnedAnew) {
+  fly();
+  const std::vector<std::string> good = lines();
+  ASSERT_GT(good.size(), kFirst);
+  EXPECT_EQ(fly().unknown, 0U) << "what was learned is known from the first image on";
+  struct Damage {
+    std::size_t line;
+    const char *number, *key;
+  };
+  for (const Damage& damage : {Damage{0, "1e308", "ground.coefficient[0]"},
+                               {1, "1e150", "ground.coefficient[1]"},
+                               {4, "1e308", "ground.covariance[0][0]"},
+                               {20, "5e-324", "ground.scale[0]"},
+                               {24, "5e-324", "ground.noise"},
+                               {4, "nan", ""}}) {
+    SCOPED_TRACE(std::string(damage.number) + " as " + damage.key);
+    std::vector<std::string> damaged = good;
+    damaged[kFirst + damage.line] = damage.number;
+    write(damaged);
+    const Flown flown = fly();
+    EXPECT_THAT(flown.err, HasSubstr("warning: " + file().string() + ':' +
+                                     std::to_string(kFirst + damage.line + 1) + ": " + damage.key));
+    EXPECT_GT(flown.unknown, 0U);
+    EXPECT_LT(flown.unknown, 20U) << "and then it was known";
+    for (const std::string& line : lines()) {
+      EXPECT_THAT(line, Not(HasSubstr("nan")));
+      EXPECT_THAT(line, Not(HasSubstr("inf")));
+    }
+    EXPECT_EQ(fly().unknown, 0U);
+  }
+}
+
+TEST_F(IgCostModel, thatPredictsNothingRightIsLearnedAnewAndSaysSoOnce) {
+  fly();
+  std::vector<std::string> stuck = lines();
+  // An image would take ten seconds; and so little is uncertain that nothing could be learned.
+  stuck[kFirst] = "10000";
+  for (std::size_t i = 4; i < 20; ++i) stuck[kFirst + i] = "0";
+  for (std::size_t i = 0; i < 4; ++i) {
+    stuck[kFirst + 4 + 5 * i] = "1e-20";
+    stuck[kFirst + 20 + i] = "1e-10";
+  }
+  write(stuck);
+  const Flown flown = fly();
+  EXPECT_THAT(flown.err, HasSubstr("warning: cost model: prediction: expected about "));
+  EXPECT_EQ(flown.err.find("learned anew"), flown.err.rfind("learned anew")) << flown.err;
+  EXPECT_LT(std::stod(lines()[kFirst]), 1000);
+}
+
+}  // namespace
+}  // namespace trimtab
