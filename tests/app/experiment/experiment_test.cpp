@@ -209,6 +209,27 @@ TEST_F(Experiment, calibratesWeatherOnOneView) {
   EXPECT_THAT(toString(refused.findings()), HasSubstr("vertices in view"));
 }
 
+TEST_F(Experiment, theFixedRatioCutsClearAirToo) {
+  experiment::Setup asked = setup();
+  asked.parameters.weather.fixedRatio = Ratio{5e-4};  // 2 km
+  const auto view = WeatherView::open(asked);
+  ASSERT_TRUE(view) << toString(view.findings());
+  const auto clear = [&](RatioMode mode) { return weatherOf((*view)->preset(), WeatherStep::clear, mode); };
+  EXPECT_GT((*view)->cutError(clear(RatioMode::fixed)).changed, 0u) << "no fog hides what it cuts";
+  EXPECT_EQ((*view)->cutError(clear(RatioMode::adaptive)).changed, 0u);
+}
+
+TEST(WeatherRows, sayWhereBothSchemesAreOneSetting) {
+  const TuningParameters p = loadPreset("as-published")->parameters;
+  const auto isOne = [&p](WeatherStep step) {
+    return isOneSetting(weatherOf(p, step, RatioMode::fixed), weatherOf(p, step, RatioMode::adaptive));
+  };
+  EXPECT_TRUE(isOne(WeatherStep::rain_light)) << "both far planes lie at 20 km";
+  EXPECT_FALSE(isOne(WeatherStep::rain_medium));
+  EXPECT_FALSE(isOne(WeatherStep::clear)) << "one is cut, one is not";
+  EXPECT_TRUE(isOneSetting({}, {}));
+}
+
 TEST_F(Experiment, weatherUnderABudgetKeepsWhatFitsAndLowersWhatDoesNot) {
   const auto view = WeatherView::open(setup());
   ASSERT_TRUE(view) << toString(view.findings());
