@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/experiment/head_motion_run.h"
 #include "app/experiment/hold_run.h"
 #include "app/experiment/weather_view.h"
 #include "tests/app/experiment/straight_flight.h"
@@ -15,6 +16,7 @@
 #include "trimtab/preset/preset.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/synthetic/land_picture.h"
 #include "trimtab/terrain/synthetic/sample.h"
 
 namespace trimtab::experiment {
@@ -70,6 +72,7 @@ TEST_F(Experiment, cullingDrawsEveryPictureAsWithoutItAndFewerTriangles) {
     EXPECT_EQ(rows.number(row, "differing_pixels"), 0) << row;
     EXPECT_GT(rows.number(row, "frame_ms"), 0);
     EXPECT_NEAR(rows.number(row, "fps") * rows.number(row, "frame_ms"), 1000, 1e-6);
+    EXPECT_EQ(rows.text(row, "imagery"), "no");
   }
   for (std::size_t altitude = 0; altitude < 4; ++altitude) {
     const double none = rows.number(altitude, "triangles"), frustum = rows.number(altitude + 4, "triangles"),
@@ -80,7 +83,39 @@ TEST_F(Experiment, cullingDrawsEveryPictureAsWithoutItAndFewerTriangles) {
     EXPECT_LE(proposed, frustum);
     EXPECT_LE(ours, frustum);
     EXPECT_NEAR(rows.number(altitude + 4, "triangles_ratio"), frustum / none, 1e-4) << "means are rounded";
+    EXPECT_NEAR(rows.number(altitude + 4, "vertices_ratio"),
+                rows.number(altitude + 4, "vertices") / rows.number(altitude, "vertices"), 1e-4);
   }
+}
+
+/// The documents' terrain has satellite images.
+TEST_F(Experiment, cullingOverImageryDrawsEveryPictureAsWithoutIt) {
+  experiment::Setup draped = setup();
+  terrain::BakeOptions bake;
+  bake.sources = {*folder_ / "sample.tif"};
+  bake.imagery = *folder_ / "picture.tif";
+  bake.output = *folder_ / "draped";
+  terrain::LandPictureOptions picture;
+  picture.pixelM = 30;
+  ASSERT_TRUE(terrain::writeLandPicture(bake.sources[0], *bake.imagery, picture));
+  const auto baked = terrain::bake(bake);
+  ASSERT_TRUE(baked) << toString(baked.findings());
+  draped.terrain = *baked;
+  const auto report = runCulling(draped), plain = runCulling(setup());
+  ASSERT_TRUE(report && plain) << toString(report.findings());
+  for (std::size_t row = 0; row < 16; ++row) {
+    EXPECT_EQ(report->measured.text(row, "imagery"), "yes");
+    EXPECT_EQ(report->measured.number(row, "differing_pixels"), 0) << row;
+    EXPECT_EQ(report->measured.number(row, "triangles"), plain->measured.number(row, "triangles")) << row;
+  }
+}
+
+TEST_F(Experiment, headMotionMeasuresOnlyFormsThatTheTerrainHas) {
+  experiment::Setup asked = setup();
+  asked.parameters.staticLod.terrain = TerrainForm::static_trees;
+  EXPECT_EQ(formsOf(asked), std::vector{TerrainForm::levels}) << "there are no trees";
+  asked.parameters.staticLod.terrain = TerrainForm::patches;
+  EXPECT_EQ(formsOf(asked), (std::vector{TerrainForm::patches, TerrainForm::levels}));
 }
 
 TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked) {
