@@ -104,12 +104,14 @@ Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& 
 }
 
 std::vector<TerrainForm> formsOf(const Setup& setup) {
-  std::vector<TerrainForm> forms{setup.parameters.staticLod.terrain};
-  const auto add = [&](TerrainForm form) {
-    if (std::find(forms.begin(), forms.end(), form) == forms.end()) forms.push_back(form);
-  };
-  add(TerrainForm::levels);
-  if (setup.terrain->staticLod() != nullptr) add(TerrainForm::static_trees);
+  std::vector<TerrainForm> forms;
+  for (const TerrainForm wanted :
+       {setup.parameters.staticLod.terrain, TerrainForm::levels, TerrainForm::static_trees}) {
+    FrameRequest request;
+    request.staticLod.terrain = wanted;
+    const auto drawn = scene::formDrawn(request, setup.terrain.get());
+    if (drawn && std::find(forms.begin(), forms.end(), *drawn) == forms.end()) forms.push_back(*drawn);
+  }
   return forms;
 }
 

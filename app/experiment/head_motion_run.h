@@ -54,8 +54,8 @@ using MotionRuns = std::array<MotionRun, kMotionModes.size()>;
 Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& profile,
                            const std::function<bool(int image)>& kept, const std::string& what);
 
-/// Returns the forms of the terrain that an experiment compares: the preset's own, then tiled levels and
-/// static trees as far as the database has them.
+/// Returns the forms of the terrain that an experiment compares, as they are drawn: what the preset asks for,
+/// then tiled levels and static trees, as far as the database has them.
 std::vector<TerrainForm> formsOf(const Setup& setup);
 std::string nameOf(TerrainForm form);
 

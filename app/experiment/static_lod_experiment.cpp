@@ -34,7 +34,7 @@ Result<Lines> linesOf(const terrain::StaticLodTerrain& trees, std::size_t tile, 
                terrain::reportStaticLod(**kept, 0).facesOfLevel};
 }
 
-/// Says which reading of n gives how many levels for the published example.
+/// Says why the published example contradicts the document's own rule.
 std::string readings() {
   const terrain::HalvedTree most =
       terrain::halvedTree(kPublishedTriangles, kPublishedN, terrain::LeafReading::atMost);
@@ -42,12 +42,13 @@ std::string readings() {
       terrain::halvedTree(kPublishedTriangles, kPublishedN, terrain::LeafReading::atLeast);
   char text[480];
   std::snprintf(text, sizeof text,
-                "The document does not say whether n = %u is the most or the least of a leaf. With n as the "
-                "most, %.0f triangles make %.0f leaves and %u levels, as built here; with n as the least, "
-                "they make %.0f leaves and the published %u. Its 126,520 faces (%.2f a triangle) count once "
-                "what levels share; neither reading makes as many if every node above the leaves holds n.",
+                "The document's rule is at least n/2 and at most n triangles in a leaf, as built here. Its "
+                "example contradicts it: with n = %u, %.0f triangles make %.0f leaves and %u levels, and the "
+                "published %u levels are those of %.0f leaves, which hold more than n each. Its 126,520 "
+                "faces (%.2f a triangle) count once what levels share; neither tree makes as many if every "
+                "node above the leaves holds n.",
                 kPublishedN, static_cast<double>(kPublishedTriangles), static_cast<double>(most.leaves),
-                most.levels, static_cast<double>(least.leaves), least.levels,
+                most.levels, least.levels, static_cast<double>(least.leaves),
                 126520 / static_cast<double>(kPublishedTriangles));
   return text;
 }

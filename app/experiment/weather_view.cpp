@@ -180,4 +180,8 @@ WeatherDecision weatherOf(const TuningParameters& parameters, WeatherStep step, 
   return decideWeather({}, changed);
 }
 
+bool isOneSetting(const WeatherDecision& a, const WeatherDecision& b) {
+  return (a.farM == b.farM || std::abs(a.farM - b.farM) < 1e-3) && a.density == b.density;
+}
+
 }  // namespace trimtab::experiment

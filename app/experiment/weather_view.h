@@ -93,4 +93,8 @@ double farthestM(const Setup& setup);
 /// Returns the decision for a weather step of the preset.
 WeatherDecision weatherOf(const TuningParameters& parameters, WeatherStep step, RatioMode mode);
 
+/// Reports whether two decisions for one step draw the same, so that their times differ by noise alone: one
+/// far plane, to a millimetre, and as many particles.
+bool isOneSetting(const WeatherDecision& a, const WeatherDecision& b);
+
 }  // namespace trimtab::experiment

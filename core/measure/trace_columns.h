@@ -68,6 +68,7 @@ void forEachMotionMemory(Memory& m, const Visit& visit) {
   visit("restore_stack_before_deg", Cell::optional, m.restoreStack.variationDeg);
   visit("motion_level_before", Cell::optional, m.level);
   visit("blur_remaining_before_ms", Cell::optional, m.blurRemainingMs);
+  visit("blur_share_before", Cell::optional, m.blurShare);
 }
 
 template <class Decision, class Visit>

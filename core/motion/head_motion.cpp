@@ -69,12 +69,23 @@ bool asksForCoarser(const MotionParameters& p, const DrawnLoad& drawn) {
   return !(vertices > 0 && drawn.vertices && static_cast<double>(*drawn.vertices) <= vertices);
 }
 
+/// The share of its strength that a blur has which this run of fast frames starts. "The blur effect is
+/// applied according to the change amount of the position values and the movement of the field of view speed"
+/// (document C, section 3.2): the stack has accumulated the change, and over the run's time that is the
+/// speed.
+double blurShareOf(const MotionStack& run, const MotionParameters& p) {
+  const double fullAtDegPerS = p.blurFullRate.value();
+  if (!(fullAtDegPerS > 0)) return 1;
+  return std::min(1.0, run.variationDeg / (run.ms * 1e-3) / fullAtDegPerS);
+}
+
 /// A fast frame: on BlurStack; full, it lowers the level and starts the blur.
 MotionReason fastFrame(const MotionParameters& p, double ms, double changeDeg, const DrawnLoad& drawn,
                        MotionMemory& memory) {
   memory.restoreStack = {};
   push(memory.blurStack, ms, changeDeg);
   if (!blurStackIsFull(memory.blurStack, p)) return MotionReason::fast;
+  memory.blurShare = blurShareOf(memory.blurStack, p);
   memory.blurStack = {};
   memory.blurRemainingMs = p.blurDuration.value();
   if (!asksForCoarser(p, drawn)) return MotionReason::kept;
@@ -165,8 +176,8 @@ MotionDecision decideMotion(const AircraftState& state, const MotionParameters& 
   decision.level = memory.level;
   decision.blurStack = memory.blurStack;
   decision.restoreStack = memory.restoreStack;
-  if (memory.blurRemainingMs > 0 && p.blurStrength.value() > 0)
-    decision.blur = {p.blurStrength.value(), memory.blurRemainingMs};
+  const double strength = p.blurStrength.value() * memory.blurShare;
+  if (memory.blurRemainingMs > 0 && strength > 0) decision.blur = {strength, memory.blurRemainingMs};
   return decision;
 }
 

@@ -118,7 +118,8 @@ inline constexpr std::array kMotionRows{
         {.key = "motion.lod_maximum",
          .label = "Largest LOD scale",
          .help = "Motion makes nothing coarser than this. With a step of 2, a maximum of 4 gives the three "
-                 "levels of document C.",
+                 "levels of document C; with 1.2, 1.44 gives three that draw as many of the vertices as it "
+                 "publishes.",
          .source = "C: LOD scale controller",
          .hard = {1, 100},
          .usual = {1, 16},
@@ -144,6 +145,17 @@ inline constexpr std::array kMotionRows{
          .usual = {0, 0.95},
          .step = 0.05,
          .decimals = 2}),
+    row<&TuningParameters::motion, &MotionParameters::blurFullRate>(
+        {.key = "motion.blur_full_degps",
+         .label = "Full blur from",
+         .help = "Document C blurs by the change of the line of sight and by its speed. A blur has its whole "
+                 "strength where the run of fast frames that starts or renews it turns at this rate or "
+                 "faster, and less in proportion where it turns slower. At 0 the strength does not follow "
+                 "the speed.",
+         .source = "C: section 3.2, Figure 4",
+         .hard = {0, 10000},
+         .usual = {0, 720},
+         .step = 10}),
     row<&TuningParameters::motion, &MotionParameters::gap>(
         {.key = "motion.gap_ms",
          .label = "Gap",

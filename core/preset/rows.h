@@ -147,7 +147,7 @@ constexpr bool endsInSomeUnit(std::string_view key) {
   for (std::string_view suffix :
        {unit::Metre::suffix, unit::Foot::suffix, unit::Degree::suffix, unit::Radian::suffix,
         unit::Second::suffix, unit::Millisecond::suffix, unit::MetrePerSecond::suffix, unit::Knot::suffix,
-        unit::Pixel::suffix, unit::Megabyte::suffix})
+        unit::DegreePerSecond::suffix, unit::Pixel::suffix, unit::Megabyte::suffix})
     if (key.ends_with(suffix)) return true;
   return false;
 }

@@ -51,6 +51,18 @@ inline constexpr std::array kStaticLodRows{
          .hard = {1, 1e6},
          .usual = {10, 100000},
          .step = 10,
-         .logarithmic = true})};
+         .logarithmic = true}),
+    row<&TuningParameters::staticLod, &StaticLodParameters::mapFromTriangles>(
+        {.key = "static_lod.map_from_triangles",
+         .label = "Depth map from",
+         .help =
+             "Far nodes of the trees are tested against a depth map only where so many of their triangles "
+             "or more may be hidden; with fewer, the map may cost more than it saves. 0 tests them "
+             "wherever the scheme is dynamic, as published. No pixel depends on it.",
+         .source = "A, B: depth map",
+         .hard = {0, 1e9},
+         .usual = {0, 200000},
+         .step = 1000,
+         .whole = true})};
 
 }  // namespace trimtab::table

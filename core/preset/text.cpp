@@ -29,11 +29,19 @@ template <class U>
 constexpr TypedUnit typed(char dimension, std::string_view symbol = U::symbol) {
   return {symbol, dimension, U::size};
 }
-constexpr std::array kTypedUnits{
-    typed<unit::Metre>('l'),       typed<unit::Foot>('l'),           typed<unit::Degree>('a'),
-    typed<unit::Radian>('a'),      typed<unit::Degree>('a', "deg"),  typed<unit::Second>('t'),
-    typed<unit::Millisecond>('t'), typed<unit::MetrePerSecond>('v'), typed<unit::Knot>('v'),
-    typed<unit::Pixel>('p'),       typed<unit::Megabyte>('s')};
+constexpr std::array kTypedUnits{typed<unit::Metre>('l'),
+                                 typed<unit::Foot>('l'),
+                                 typed<unit::Degree>('a'),
+                                 typed<unit::Radian>('a'),
+                                 typed<unit::Degree>('a', "deg"),
+                                 typed<unit::Second>('t'),
+                                 typed<unit::Millisecond>('t'),
+                                 typed<unit::MetrePerSecond>('v'),
+                                 typed<unit::Knot>('v'),
+                                 typed<unit::DegreePerSecond>('w'),
+                                 typed<unit::DegreePerSecond>('w', "deg/s"),
+                                 typed<unit::Pixel>('p'),
+                                 typed<unit::Megabyte>('s')};
 
 const TypedUnit* typedUnit(std::string_view symbol) {
   const auto at = std::find_if(kTypedUnits.begin(), kTypedUnits.end(),

@@ -170,9 +170,9 @@ inline constexpr auto kWeatherRows = joined(
         row<&TuningParameters::weather, &WeatherParameters::ratioMode>(
             {.key = "weather.ratio_mode",
              .label = "Near-far ratio",
-             .help = "What cuts the far terrain in fog: nothing, one ratio for all weather, or the ratio of "
-                     "default near "
-                     "to visibility. Clear weather is never cut.",
+             .help =
+                 "What cuts the far terrain: nothing; one ratio in all weather, clear air too, where what "
+                 "it cuts is missed; or, in fog alone, the ratio of default near to visibility.",
              .source = "D: Eq. 1, Table 1"}),
         row<&TuningParameters::weather, &WeatherParameters::fixedRatio>(
             {.key = "weather.fixed_ratio",

@@ -222,18 +222,16 @@ void setFarPlane(WeatherDecision& d, const WeatherParameters& p, double stretch)
     d.farReason = FarReason::off;
     return;
   }
-  if (!d.fogged) {
-    d.farReason = FarReason::clear;
-    return;
-  }
-  if (isLayer(d) && p.ratioMode == RatioMode::adaptive) {
-    setSafeFarPlane(d, p, stretch);
-    return;
-  }
   const double near = p.defaultNear.value();
   if (p.ratioMode == RatioMode::fixed) {
     d.farReason = FarReason::fixed;
     d.nearFarRatio = p.fixedRatio.value();
+  } else if (!d.fogged) {
+    d.farReason = FarReason::clear;
+    return;
+  } else if (isLayer(d)) {
+    setSafeFarPlane(d, p, stretch);
+    return;
   } else {
     d.farReason = stretch > 1 ? FarReason::stretched : FarReason::visible;
     d.nearFarRatio = near / (d.visibilityM * std::max(stretch, 1.0));

@@ -90,7 +90,7 @@ TEST_F(PlotsPanelTest, cursorsReadFramesAndTheirDifference) {
               {"draw (ms)", Trace::draw_ms, 1, 1e-3},
               {"select (ms)", Trace::select_ms, 1, 1e-3},
               {"GPU (ms)", Trace::gpu_ms, 1, 1e-3},
-              {"head (deg/s)", Trace::head_rate_degps, 1, 0.1},
+              {"line of sight (deg/s)", Trace::line_of_sight_degps, 1, 0.1},
               {"LOD scale", Trace::lod_scale, 1, 1e-2},
               {"vertices (k)", Trace::vertices, 1e-3, 0.01}};
   for (const auto& [signal, trace, scale, tolerance] : rows) {
@@ -101,6 +101,12 @@ TEST_F(PlotsPanelTest, cursorsReadFramesAndTheirDifference) {
     EXPECT_NEAR(number(2), bt, tolerance) << signal;
     EXPECT_NEAR(number(3), bt - at, tolerance) << signal;
   }
+}
+
+TEST(PlotLanes, readTheFormerNameOfTheLineOfSight) {
+  const auto lanes = lanesOf(QStringLiteral("head_rate_degps lod_scale"));
+  ASSERT_TRUE(lanes);
+  EXPECT_EQ(toText(*lanes), QStringLiteral("line_of_sight_degps lod_scale"));
 }
 
 TEST_F(PlotsPanelTest, aCursorBesideTheDataKeepsItsTimeAndHasNoValue) {

@@ -117,7 +117,7 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
       line,
       "time_s,packet,altitude_membership,pitch_membership,total_membership,triangles,frame_ms,fps,cull_"
       "ms,draw_ms,"
-      "gpu_ms,depth_map_width_px,head_rate_degps,lod_scale,select_ms,page_ms,occlusion_ms,blur_ms,"
+      "gpu_ms,depth_map_width_px,line_of_sight_degps,lod_scale,select_ms,page_ms,occlusion_ms,blur_ms,"
       "weather_ms,symbology_ms,vertices,altitude_ft,pitch_deg,dynamic_scheme,band,tiles_drawn,tiles_outside,"
       "tiles_hidden,tiles_built,pages_read,page_read_mb,pages_waiting,above_ground_ft,roll_deg,speed_kt,"
       "climb_ftpmin,sight_rate_degps,visibility_m,load,allowed_error_px,render_scale,particle_density,"

@@ -45,8 +45,8 @@ constexpr std::array kSignals{
     PlotSignal{Trace::roll_deg, "roll", "deg", 1, 1, true},
     PlotSignal{Trace::speed_kt, "speed", "kt", 1, 0, true},
     PlotSignal{Trace::climb_ftpmin, "climb", "ft/min", 1, 0, true},
-    PlotSignal{Trace::head_rate_degps, "head", "deg/s", 1, 1},
-    PlotSignal{Trace::sight_rate_degps, "line of sight", "deg/s", 1, 1, true},
+    PlotSignal{Trace::line_of_sight_degps, "line of sight", "deg/s", 1, 1},
+    PlotSignal{Trace::sight_rate_degps, "line of sight, filtered", "deg/s", 1, 1, true},
     PlotSignal{Trace::visibility_m, "visibility", "m", 1, 0, true},
     PlotSignal{Trace::load, "load", "", 1, 2, true},
     PlotSignal{Trace::allowed_error_px, "allowed error", "px", 1, 2},
@@ -82,7 +82,7 @@ const PlotSignal& signalOf(Trace trace) {
 
 PlotLanes standardLanes() {
   using enum Trace;
-  return {{{altitude_membership, pitch_membership, total_membership, head_rate_degps}},
+  return {{{altitude_membership, pitch_membership, total_membership, line_of_sight_degps}},
           {{triangles, vertices, lod_scale}},
           {{frame_ms, fps}},
           {{}, true}};
@@ -116,6 +116,8 @@ std::optional<PlotLanes> lanesOf(const QString& text) {
 }
 
 std::optional<Trace> traceOf(const QString& name) {
+  // Saved layouts may have the name that the line of sight had before.
+  if (name == QLatin1String("head_rate_degps")) return Trace::line_of_sight_degps;
   for (const PlotSignal& signal : kSignals)
     if (nameOf(signal.trace) == name) return signal.trace;
   return std::nullopt;

@@ -55,7 +55,7 @@ std::string_view traceName(Trace trace) {
                                                                 "draw_ms",
                                                                 "gpu_ms",
                                                                 "depth_map_width_px",
-                                                                "head_rate_degps",
+                                                                "line_of_sight_degps",
                                                                 "lod_scale",
                                                                 "select_ms",
                                                                 "page_ms",

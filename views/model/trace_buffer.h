@@ -25,7 +25,7 @@ enum class Trace : std::uint8_t {
   draw_ms,
   gpu_ms,
   depth_map_width_px,
-  head_rate_degps,
+  line_of_sight_degps,  ///< its rate as head motion decides by it; of the head where `motion.reference` says
   lod_scale,
   select_ms,
   page_ms,

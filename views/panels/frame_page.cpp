@@ -23,12 +23,33 @@ constexpr std::uint64_t kMostSorted = 20'000;
 constexpr double kOverMedian = 1.5;
 
 using enum Trace;
-constexpr Trace kRows[]{
-    frame_ms,      select_ms,      page_ms,        occlusion_ms,       cull_ms,    draw_ms,
-    gpu_ms,        blur_ms,        weather_ms,     symbology_ms,       triangles,  vertices,
-    tiles_drawn,   tiles_outside,  tiles_hidden,   tiles_built,        pages_read, page_read_mb,
-    pages_waiting, dynamic_scheme, band,           depth_map_width_px, lod_scale,  total_membership,
-    altitude_ft,   pitch_deg,      head_rate_degps};
+constexpr Trace kRows[]{frame_ms,
+                        select_ms,
+                        page_ms,
+                        occlusion_ms,
+                        cull_ms,
+                        draw_ms,
+                        gpu_ms,
+                        blur_ms,
+                        weather_ms,
+                        symbology_ms,
+                        triangles,
+                        vertices,
+                        tiles_drawn,
+                        tiles_outside,
+                        tiles_hidden,
+                        tiles_built,
+                        pages_read,
+                        page_read_mb,
+                        pages_waiting,
+                        dynamic_scheme,
+                        band,
+                        depth_map_width_px,
+                        lod_scale,
+                        total_membership,
+                        altitude_ft,
+                        pitch_deg,
+                        line_of_sight_degps};
 
 QString cellText(const PlotSignal& signal, double value) {
   if (!std::isfinite(value)) return QStringLiteral("–");

@@ -19,8 +19,8 @@ namespace {
 
 /// The parameters that are worth having beside their effect; the Preset dock has all.
 constexpr const char* kMotionKeys[] = {
-    "motion.control",        "motion.frames",           "motion.dwell",        "motion.blur_frames",
-    "motion.restore_frames", "motion.blur_duration_ms", "motion.blur_strength"};
+    "motion.control",        "motion.frames",           "motion.dwell",         "motion.blur_frames",
+    "motion.restore_frames", "motion.blur_duration_ms", "motion.blur_strength", "motion.blur_full_degps"};
 
 QString stackText(const MotionStack& stack, double limit, bool ms, bool more) {
   const QString of = more ? MotionPanel::tr("> %1").arg(numberText(limit, 1)) : numberText(limit, 1);

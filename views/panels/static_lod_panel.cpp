@@ -69,9 +69,9 @@ StaticLodPanel::StaticLodPanel(Draft& draft, QWidget* parent)
   table_->setTextFormat(Qt::RichText);
   table_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   table_->setToolTip(
-      tr("<p>A face that several nodes have is one different face. The document does not say whether n is "
-         "the most or the least of a leaf. For its example n as the most makes 16 leaves and 5 levels, and n "
-         "as the least makes 8 leaves and the published 4. Trees here use n as the most.%1</p>")
+      tr("<p>A face that several nodes have is one different face. The document's rule, at least n/2 and at "
+         "most n triangles in a leaf, is kept here. Its example contradicts it: by the rule it has 16 leaves "
+         "and 5 levels; the published 4 levels are those of 8 leaves of more than n.%1</p>")
           .arg(documentsHtml("E")));
   drawn_->setAccessibleName(tr("Triangles drawn, by level"));
   slider_->setAccessibleName(tr("Level, from the roots to the leaves"));

@@ -1,5 +1,7 @@
 #include "app/experiment/builders.h"
 
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -86,6 +88,8 @@ TEST_F(Builders, areInTheExperimentsTable) {
             report->measured.number(rowOf("lines_as_published_level_4"), "lines_share"));
   for (const char* column : {"triangles_per_strip", "triangles_per_fan", "acmr_16", "acmr_32"})
     EXPECT_GT(report->measured.number(rowOf("tree_level_0"), column), 1) << column;
+  EXPECT_THAT(report->notes,
+              ::testing::Contains(::testing::HasSubstr("at least n/2 and at most n triangles in a leaf")));
   const auto parsed = experiment::parseReport(experiment::toJson(*report), "json");
   ASSERT_TRUE(parsed);
   EXPECT_EQ(parsed->measured.rows.size(), report->measured.rows.size());

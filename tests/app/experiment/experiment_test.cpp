@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/experiment/head_motion_run.h"
 #include "app/experiment/hold_run.h"
 #include "app/experiment/weather_view.h"
 #include "tests/app/experiment/straight_flight.h"
@@ -15,6 +16,7 @@
 #include "trimtab/preset/preset.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/synthetic/land_picture.h"
 #include "trimtab/terrain/synthetic/sample.h"
 
 namespace trimtab::experiment {
@@ -70,6 +72,7 @@ TEST_F(Experiment, cullingDrawsEveryPictureAsWithoutItAndFewerTriangles) {
     EXPECT_EQ(rows.number(row, "differing_pixels"), 0) << row;
     EXPECT_GT(rows.number(row, "frame_ms"), 0);
     EXPECT_NEAR(rows.number(row, "fps") * rows.number(row, "frame_ms"), 1000, 1e-6);
+    EXPECT_EQ(rows.text(row, "imagery"), "no");
   }
   for (std::size_t altitude = 0; altitude < 4; ++altitude) {
     const double none = rows.number(altitude, "triangles"), frustum = rows.number(altitude + 4, "triangles"),
@@ -80,7 +83,39 @@ TEST_F(Experiment, cullingDrawsEveryPictureAsWithoutItAndFewerTriangles) {
     EXPECT_LE(proposed, frustum);
     EXPECT_LE(ours, frustum);
     EXPECT_NEAR(rows.number(altitude + 4, "triangles_ratio"), frustum / none, 1e-4) << "means are rounded";
+    EXPECT_NEAR(rows.number(altitude + 4, "vertices_ratio"),
+                rows.number(altitude + 4, "vertices") / rows.number(altitude, "vertices"), 1e-4);
   }
+}
+
+/// The documents' terrain has satellite images.
+TEST_F(Experiment, cullingOverImageryDrawsEveryPictureAsWithoutIt) {
+  experiment::Setup draped = setup();
+  terrain::BakeOptions bake;
+  bake.sources = {*folder_ / "sample.tif"};
+  bake.imagery = *folder_ / "picture.tif";
+  bake.output = *folder_ / "draped";
+  terrain::LandPictureOptions picture;
+  picture.pixelM = 30;
+  ASSERT_TRUE(terrain::writeLandPicture(bake.sources[0], *bake.imagery, picture));
+  const auto baked = terrain::bake(bake);
+  ASSERT_TRUE(baked) << toString(baked.findings());
+  draped.terrain = *baked;
+  const auto report = runCulling(draped), plain = runCulling(setup());
+  ASSERT_TRUE(report && plain) << toString(report.findings());
+  for (std::size_t row = 0; row < 16; ++row) {
+    EXPECT_EQ(report->measured.text(row, "imagery"), "yes");
+    EXPECT_EQ(report->measured.number(row, "differing_pixels"), 0) << row;
+    EXPECT_EQ(report->measured.number(row, "triangles"), plain->measured.number(row, "triangles")) << row;
+  }
+}
+
+TEST_F(Experiment, headMotionMeasuresOnlyFormsThatTheTerrainHas) {
+  experiment::Setup asked = setup();
+  asked.parameters.staticLod.terrain = TerrainForm::static_trees;
+  EXPECT_EQ(formsOf(asked), std::vector{TerrainForm::levels}) << "there are no trees";
+  asked.parameters.staticLod.terrain = TerrainForm::patches;
+  EXPECT_EQ(formsOf(asked), (std::vector{TerrainForm::patches, TerrainForm::levels}));
 }
 
 TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked) {
@@ -207,6 +242,27 @@ TEST_F(Experiment, calibratesWeatherOnOneView) {
   const auto refused = calibrateWeather(setup(), wanted);
   ASSERT_FALSE(refused);
   EXPECT_THAT(toString(refused.findings()), HasSubstr("vertices in view"));
+}
+
+TEST_F(Experiment, theFixedRatioCutsClearAirToo) {
+  experiment::Setup asked = setup();
+  asked.parameters.weather.fixedRatio = Ratio{5e-4};  // 2 km
+  const auto view = WeatherView::open(asked);
+  ASSERT_TRUE(view) << toString(view.findings());
+  const auto clear = [&](RatioMode mode) { return weatherOf((*view)->preset(), WeatherStep::clear, mode); };
+  EXPECT_GT((*view)->cutError(clear(RatioMode::fixed)).changed, 0u) << "no fog hides what it cuts";
+  EXPECT_EQ((*view)->cutError(clear(RatioMode::adaptive)).changed, 0u);
+}
+
+TEST(WeatherRows, sayWhereBothSchemesAreOneSetting) {
+  const TuningParameters p = loadPreset("as-published")->parameters;
+  const auto isOne = [&p](WeatherStep step) {
+    return isOneSetting(weatherOf(p, step, RatioMode::fixed), weatherOf(p, step, RatioMode::adaptive));
+  };
+  EXPECT_TRUE(isOne(WeatherStep::rain_light)) << "both far planes lie at 20 km";
+  EXPECT_FALSE(isOne(WeatherStep::rain_medium));
+  EXPECT_FALSE(isOne(WeatherStep::clear)) << "one is cut, one is not";
+  EXPECT_TRUE(isOneSetting({}, {}));
 }
 
 TEST_F(Experiment, weatherUnderABudgetKeepsWhatFitsAndLowersWhatDoesNot) {

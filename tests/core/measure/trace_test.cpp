@@ -39,7 +39,8 @@ void anyMotion(std::mt19937_64& random, DecisionMemory& before, FrameDecision& d
   };
   MotionMemory& memory = before.motion;
   memory.known = random() % 2;
-  for (double* value : {&memory.timeS, &memory.headingDeg, &memory.pitchDeg, &memory.blurRemainingMs})
+  for (double* value :
+       {&memory.timeS, &memory.headingDeg, &memory.pitchDeg, &memory.blurRemainingMs, &memory.blurShare})
     *value = anyDouble(random);
   stack(memory.blurStack);
   stack(memory.restoreStack);

@@ -138,6 +138,24 @@ TEST(BlurStack, firesAgainWhileTheMotionGoesOnDownToTheLargestScale) {
   EXPECT_EQ(third.blur.remainingMs, 400);
 }
 
+TEST(Blur, isAsStrongAsTheRunThatStartsItIsFast) {
+  MotionParameters p;
+  p.blurFullRate = DegreesPerSecond{180};
+  for (const double rate : {70.0, 90.0, 135.0, 180.0, 400.0}) {
+    Pilot pilot(p);
+    EXPECT_NEAR(pilot.turns(10, rate).blur.strength, 0.8 * std::min(rate / 180, 1.0), 1e-9) << rate;
+    Pilot constant;
+    EXPECT_EQ(constant.turns(10, rate).blur.strength, 0.8) << "by default it does not follow the speed";
+  }
+  Pilot pilot(p);
+  pilot.turns(5, 90);
+  EXPECT_NEAR(pilot.turns(5, 150).blur.strength, 0.8 * 120 / 180, 1e-9) << "the mean of the run";
+  EXPECT_NEAR(pilot.turns(9, 180).blur.strength, 0.8 * 120 / 180, 1e-9) << "until the next run is full";
+  EXPECT_NEAR(pilot.turn(180).blur.strength, 0.8, 1e-9);
+  EXPECT_NEAR(pilot.turns(5, kSlow).blur.strength, 0.8, 1e-9) << "slow frames stop it and do not weaken it";
+  EXPECT_EQ(pilot.turn(kSlow).blur.strength, 0);
+}
+
 TEST(LodRestoreStack, firesWithTheSixthSlowFrameInARow) {
   Pilot pilot;
   pilot.turns(20, kFast);

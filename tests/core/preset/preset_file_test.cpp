@@ -256,11 +256,12 @@ TEST(PresetFile, readsAnExportOfVersion2) {
 }
 
 // Whole exports of as-published, written before presets had a policy, a budget and precipitation of their
-// own, and before head motion could count images.
+// own, and before head motion was as published.
 TEST(PresetFile, readsExportsOfVersion3ThatAreOlderThanPolicies) {
   TuningParameters published = loadPreset("as-published")->parameters;
-  published.motion.frames = TuningParameters{}.motion.frames;
+  published.motion = {};
   published.staticLod.error = ErrorMeasure::rms;
+  published.staticLod.mapFromTriangles = StaticLodParameters{}.mapFromTriangles;
   for (const char* ending : {"json", "xml", "ini"}) {
     const auto exported = loadPreset((data() / (std::string("old/export-version-3.") + ending)).string());
     ASSERT_TRUE(exported) << toString(exported.findings());
@@ -270,40 +271,6 @@ TEST(PresetFile, readsExportsOfVersion3ThatAreOlderThanPolicies) {
     EXPECT_EQ(exported->parameters.weather.precipitationForm, PrecipitationForm::effect)
         << "as it fell then, not as it falls by default now";
   }
-}
-
-TEST(ShippedPresets, areWhatTheyWouldBeSavedAs) {
-  const auto names = shippedPresets();
-  EXPECT_EQ(names, (std::vector<std::string_view>{"default", "as-published", "as-printed", "low-level",
-                                                  "approach", "helmet-search", "high-cruise"}));
-  for (const std::string_view name : names) {
-    const auto preset = loadPreset(std::string(name));
-    ASSERT_TRUE(preset) << toString(preset.findings());
-    EXPECT_TRUE(preset.findings().empty());
-    EXPECT_TRUE(validate(preset->parameters));
-    EXPECT_EQ(preset->name, name);
-    EXPECT_EQ(*presetText(*preset),
-              test::readFile(test::sourceDir() / "presets" / (std::string(name) + ".json")));
-  }
-  EXPECT_TRUE(sameBits(loadPreset("default")->parameters, TuningParameters{}));
-}
-
-TEST(ShippedPresets, differWhereTheirNamesSay) {
-  const auto keys = [](const char* left, const char* right) {
-    std::vector<std::string> result;
-    for (const Difference& d : differences(loadPreset(left)->parameters, loadPreset(right)->parameters))
-      result.push_back(d.key + " " + d.left + " " + d.right);
-    return result;
-  };
-  EXPECT_EQ(keys("default", "default"), std::vector<std::string>{});
-  EXPECT_EQ(keys("default", "as-published"),
-            (std::vector<std::string>{
-                "fuzzy.pitch.reading linear rounded_step", "fuzzy.hysteresis 0.05 0",
-                "culling.occlusion auto depth_map", "static_lod.terrain levels static_trees",
-                "static_lod.error rms as_published", "motion.frames host_states drawn",
-                "weather.precipitation_form bounded effect", "symbology.enabled false true"}));
-  EXPECT_EQ(keys("as-published", "as-printed"),
-            std::vector<std::string>{"fuzzy.altitude.reading table equation_a"});
 }
 
 /// One mistake a file, named after it: the finding's place, key, and parts of what was expected and found.

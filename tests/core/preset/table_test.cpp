@@ -183,6 +183,8 @@ TEST(ParameterText, convertsTypedUnits) {
   EXPECT_DOUBLE_EQ(number("view.horizontal_fov_deg", "1.5707963267948966 rad"), 90);
   EXPECT_EQ(number("view.horizontal_fov_deg", "45 deg"), 45);
   EXPECT_EQ(number("view.horizontal_fov_deg", "45°"), 45);
+  EXPECT_EQ(number("motion.blur_full_degps", "120 deg/s"), 120);
+  EXPECT_EQ(number("motion.blur_full_degps", "120°/s"), 120);
   EXPECT_DOUBLE_EQ(number("host.silence_after_ms", "0.25 s"), 250);
   EXPECT_EQ(number("view.width_px", "800 px"), 800);
 }

@@ -124,8 +124,14 @@ TEST(Weather, cutsByTheModeOfTheRatio) {
   p.weather.step = WeatherStep::snow_heavy;
   EXPECT_NEAR(decideWeather(AircraftState{}, p).farM, 10000, 1e-9) << "one ratio for all weather";
   p.weather.step = WeatherStep::clear;
-  EXPECT_EQ(decideWeather(AircraftState{}, p).farM, kInfinity)
-      << "clear rows of Table 1 are equal in both columns";
+  d = decideWeather(AircraftState{}, p);
+  EXPECT_NEAR(d.farM, 10000, 1e-9) << "clear air too";
+  EXPECT_EQ(d.farReason, FarReason::fixed);
+  EXPECT_FALSE(d.fogged);
+  p.weather.ratioMode = RatioMode::adaptive;
+  d = decideWeather(AircraftState{}, p);
+  EXPECT_EQ(d.farM, kInfinity) << "there is no visibility to cut at";
+  EXPECT_EQ(d.farReason, FarReason::clear);
 
   p = inStep(WeatherStep::rain_medium);
   p.weather.ratioMode = RatioMode::off;

@@ -33,9 +33,6 @@ std::vector<std::uint32_t> vertexCounts(const terrain::StaticLodTerrain& terrain
 
 /// One node in so many of the cut is near: drawn first, and what it covers is read.
 constexpr std::size_t kNearOneIn = 3;
-/// Triangles that may be hidden, below which reading the map costs more than hiding half of them saves:
-/// measured over Kansai on a software rasteriser.
-constexpr std::uint64_t kWorthHiding = 30'000;
 
 }  // namespace
 
@@ -158,8 +155,9 @@ OcclusionResult StaticLodCulling::occlusion(const FrameRequest& request) const {
   if (request.method != CullingCase::proposed || !size || request.overlays.treePicture) return {};
   if (request.frozenEye)
     result.note = "What is hidden stays as it was when culling was frozen.";
-  else if (!hiddenIsKnown_ && hideableTriangles(visibleKey_->eye.position) < kWorthHiding)
-    result.note = "Too little of the static trees can be hidden for a depth map to be worth its cost.";
+  else if (!hiddenIsKnown_ && static_cast<double>(hideableTriangles(visibleKey_->eye.position)) <
+                                  request.staticLod.mapFromTriangles.value())
+    result.note = "Too few triangles of the static trees can be hidden for a depth map to be drawn.";
   if (!result.note.empty()) return result;
   result.depthMap = size;
   result.occlusion = OcclusionMethod::depth_map;

@@ -422,6 +422,10 @@ TEST_F(StaticTrees, readNoDepthMapWhereNoneIsAskedForOrWorthIt) {
   result = renderer.draw(r, offscreen->framebuffer());
   EXPECT_EQ(result.counters.depthMapsDrawn, 1u) << "from so high nothing can be hidden";
   EXPECT_NE(result.note, "");
+  r.staticLod.mapFromTriangles = Ratio{0};
+  result = renderer.draw(r, offscreen->framebuffer());
+  EXPECT_EQ(result.counters.depthMapsDrawn, 2u) << "asked for whatever it costs";
+  EXPECT_EQ(result.note, "");
 }
 
 }  // namespace

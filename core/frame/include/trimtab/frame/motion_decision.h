@@ -76,6 +76,7 @@ struct MotionMemory {
   MotionStack blurStack, restoreStack;
   std::uint32_t level = 0;
   double blurRemainingMs = 0;
+  double blurShare = 1;  ///< of MotionParameters::blurStrength; of the run that started or renewed the blur
 
   friend bool operator==(const MotionMemory&, const MotionMemory&) = default;
 };

@@ -32,7 +32,7 @@ enum class WeatherReason : std::uint8_t {
 /// Says why the far plane is where it is.
 enum class FarReason : std::uint8_t {
   off,        ///< nothing is cut, because the preset's `ratioMode` is off
-  clear,      ///< nothing is cut, because no fog would hide the edge
+  clear,      ///< nothing is cut, because no fog would hide the edge, and the ratio is not fixed
   fixed,      ///< the preset's `fixedRatio` sets it
   visible,    ///< it lies at the visibility, by Eq. (1) of document D
   stretched,  ///< it lies at the visibility times the `farStretch` of what falls, which a calibration finds

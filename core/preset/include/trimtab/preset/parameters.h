@@ -122,6 +122,8 @@ struct StaticLodParameters {
   StaticDistanceRule rule = StaticDistanceRule::picture;
   Pixels errorPx{1};             ///< used by `picture`
   Ratio distancePerError{1000};  ///< metres of distance per metre of error; used by `factor`
+  /// The depth map is drawn only where at least so many triangles may be hidden.
+  Ratio mapFromTriangles{30000};
 };
 
 struct ViewParameters {
@@ -196,6 +198,7 @@ struct MotionParameters {
   Ratio lodMaximum{4};
   Milliseconds blurDuration{400};
   Ratio blurStrength{0.8};
+  DegreesPerSecond blurFullRate{0};  ///< below this rate the blur is weaker in proportion; 0: never
   Milliseconds gap{250};
 };
 

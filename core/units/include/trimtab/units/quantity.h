@@ -14,6 +14,7 @@ struct Length {};
 struct Angle {};
 struct Time {};
 struct Speed {};
+struct Turn {};
 struct Screen {};
 struct Storage {};
 struct Dimensionless {};
@@ -59,6 +60,11 @@ struct Knot {
   using Dimension = Speed;
   static constexpr double size = 1852.0 / 3600;
   static constexpr std::string_view symbol = "kt", suffix = "_kt";
+};
+struct DegreePerSecond {
+  using Dimension = Turn;
+  static constexpr double size = 1.0;
+  static constexpr std::string_view symbol = "°/s", suffix = "_degps";
 };
 struct Pixel {
   using Dimension = Screen;
@@ -132,6 +138,7 @@ using Seconds = Quantity<unit::Second>;
 using Milliseconds = Quantity<unit::Millisecond>;
 using MetresPerSecond = Quantity<unit::MetrePerSecond>;
 using Knots = Quantity<unit::Knot>;
+using DegreesPerSecond = Quantity<unit::DegreePerSecond>;
 using Pixels = Quantity<unit::Pixel>;
 using Megabytes = Quantity<unit::Megabyte>;
 using Ratio = Quantity<unit::Ratio>;

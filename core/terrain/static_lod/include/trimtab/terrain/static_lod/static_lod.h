@@ -39,7 +39,8 @@ Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const S
                                                                const LocalFrame& frame,
                                                                const StaticLodOptions& options);
 
-/// What n may say about leaves. Document E states n = 2000 for its example, but not which of the two it is.
+/// What n says about leaves. Document E's rule is the first, but the 4 levels of its example, n = 2000,
+/// follow from the second.
 enum class LeafReading {
   atMost,   ///< leaves hold n/2 to n triangles, as the builder splits
   atLeast,  ///< leaves hold n to 2n triangles
