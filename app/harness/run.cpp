@@ -14,6 +14,7 @@
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/measure/cost_stages.h"
+#include "trimtab/measure/machine_watch.h"
 #include "trimtab/preset/choices.h"
 #include "trimtab/scene/error_meter.h"
 #include "trimtab/scene/gl_report.h"
@@ -103,6 +104,7 @@ class Run {
   Clock::time_point start_ = Clock::now();
   std::string doing_;
   bool cancelled_ = false;
+  MachineWatch watch_;
 };
 
 bool Run::goOn() {
@@ -177,7 +179,7 @@ std::vector<Unit> Run::measureFrame(const std::vector<Runner>& runners, std::siz
   for (std::size_t repeat = 0; repeat < plan_.repeats; ++repeat)
     for (std::size_t i = 0; i < n; ++i) {
       // Nobody is always first.
-      const std::size_t u = (i + repeat) % n;
+      const std::size_t u = (i + repeat + index) % n;
       costs[u].push_back(inFlight(runners[u].frames[index], false));
     }
   for (std::size_t u = 0; u < n; ++u) {
@@ -325,6 +327,7 @@ Result<Results> Run::all() {
     if (failed = measureFlight(flight, results); !failed.empty()) return failed;
   // Images of what the terrain did not hold are no measurement.
   if (failed = plan_.terrain->damage(); !failed.empty()) return failed;
+  results.othersShare = watch_.othersShare();
   results.comparisons = compareUnits(results.units);
   if (const auto done = store_.write("frames.csv", toCsv(results)); !done) return done.findings();
   if (const auto done = store_.write("results.json", toJson(results)); !done) return done.findings();
