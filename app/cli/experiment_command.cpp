@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "experiment_setup.h"
 #include "progress.h"
+#include "trimtab/measure/machine_watch.h"
 
 namespace trimtab::cli {
 namespace {
@@ -25,9 +26,11 @@ int run(const ExperimentOptions& arguments, Run experiment) {
   if (!mayWriteTo(arguments.output)) return kRefused;
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
   if (!setup) return kRefused;
-  const Result<experiment::Report> done = experiment(*setup);
+  const MachineWatch watch;
+  Result<experiment::Report> done = experiment(*setup);
   report(done.findings());
   if (!done || isDamaged(*setup)) return kRefused;
+  if (std::string busy = busyText(watch.othersShare()); !busy.empty()) done->notes.push_back(std::move(busy));
   std::cout << (arguments.json ? toJson(*done) : toText(*done));
   if (arguments.output.empty()) return kDone;
   const auto written = writeReport(arguments.output, *done);
@@ -64,11 +67,16 @@ void addExperiment(CLI::App& app, int& exitCode) {
        }) {
     auto arguments = std::make_shared<ExperimentOptions>();
     CLI::App* command = group->add_subcommand(named.name, named.what);
+    const bool headMotion = std::string_view(named.name).starts_with("head-motion");
+    // Each repeat is a pass, and fewer than six have no interval.
+    if (headMotion) arguments->setup.repeats = 9;
     arguments->setup.addTo(*command);
-    if (std::string_view(named.name).starts_with("head-motion"))
+    if (headMotion) {
+      command->get_option("--repeats")->description("Passes in each mode; fewer than six tell no difference");
       command->add_option("--host-rate", arguments->setup.hostRateHz, "Host states a second")
           ->capture_default_str()
           ->check(CLI::Range(1, 1000));
+    }
     if (std::string_view(named.name) == "hold") {
       experiment::HoldSetup& hold = arguments->setup.hold;
       command->add_flag(

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -8,6 +9,7 @@
 #include "commands.h"
 #include "experiment_setup.h"
 #include "progress.h"
+#include "trimtab/measure/machine_watch.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/units/number.h"
 
@@ -37,7 +39,7 @@ std::vector<WeatherStep> stepsOf(const std::vector<std::string>& names) {
   return steps;
 }
 
-void print(const experiment::CalibratedWeather& calibrated) {
+void print(const experiment::CalibratedWeather& calibrated, double othersShare) {
   std::printf("%.0f vertices in view in clear air\n", calibrated.vertices);
   std::printf("%-12s %9s %9s %12s %10s %8s %10s %8s  %s\n", "step", "clear ms", "uncut ms", "strongest ms",
               "matched ms", "far km", "ratio", "density", "outcome");
@@ -45,10 +47,11 @@ void print(const experiment::CalibratedWeather& calibrated) {
     std::printf("%-12s %9.2f %9.2f %12.2f %10.2f %8.2f %10.3g %8.3g  %s%s\n", nameOf(c.step).c_str(),
                 c.clearMs, c.uncutMs, c.strongestMs, c.matchedMs, c.farM / 1000, c.nearFarRatio, c.density,
                 std::string(toText(c.outcome)).c_str(),
-                c.drifted ? "; the machine was busy, measure again" : "");
+                c.drifted ? "; clear air took another time afterwards: measure again" : "");
+  if (const std::string busy = busyText(othersShare); !busy.empty()) std::printf("%s\n", busy.c_str());
 }
 
-void printJson(const experiment::CalibratedWeather& calibrated) {
+void printJson(const experiment::CalibratedWeather& calibrated, double othersShare) {
   nlohmann::ordered_json steps = nlohmann::ordered_json::array();
   for (const StepCalibration& c : calibrated.steps) {
     nlohmann::ordered_json trials = nlohmann::ordered_json::array();
@@ -67,7 +70,13 @@ void printJson(const experiment::CalibratedWeather& calibrated) {
                      {"drifted", c.drifted},
                      {"trials", trials}});
   }
-  std::cout << nlohmann::ordered_json{{"vertices", calibrated.vertices}, {"steps", steps}}.dump(2) << '\n';
+  std::cout << nlohmann::ordered_json{{"vertices", calibrated.vertices},
+                                      {"others_share", std::isfinite(othersShare)
+                                                           ? nlohmann::ordered_json(othersShare)
+                                                           : nlohmann::ordered_json()},
+                                      {"steps", steps}}
+                   .dump(2)
+            << '\n';
 }
 
 int calibrate(const WeatherOptions& arguments) {
@@ -78,13 +87,15 @@ int calibrate(const WeatherOptions& arguments) {
   if (!preset || !setup) return kRefused;
   experiment::WeatherCalibration wanted{stepsOf(arguments.steps), {}};
   if (arguments.vertices > 0) wanted.vertices = arguments.vertices;
+  const MachineWatch watch;
   const auto calibrated = experiment::calibrateWeather(*setup, wanted);
+  const double othersShare = watch.othersShare();
   report(calibrated.findings());
   if (!calibrated || isDamaged(*setup)) return kRefused;
   if (arguments.json)
-    printJson(*calibrated);
+    printJson(*calibrated, othersShare);
   else
-    print(*calibrated);
+    print(*calibrated, othersShare);
   if (arguments.output.empty()) return kDone;
 
   TuningParameters tuned = setup->parameters;

@@ -37,7 +37,7 @@ struct Setup {
   std::string presetName;
   int widthPx = 1280, heightPx = 720;
   HoldSetup hold;
-  int repeats = 3;          ///< frames per view, of which the median counts
+  int repeats = 3;          ///< frames per view, of which the median counts; passes, for head motion
   std::size_t frames = 24;  ///< moments of the flight, for leverage
   double hostRateHz = 200;  ///< states a second, for the experiments on head motion
   /// Called now and then; returning false cancels.

@@ -16,6 +16,8 @@ namespace {
 constexpr double kEyeFt = 2000;
 /// Images between two questions whether to go on.
 constexpr int kAsked = 40;
+/// A rate that falls by more than this share from one image to the next is a rapid drop.
+constexpr double kDrop = 0.3;
 
 /// One pass through the profile; the first pass also counts and keeps pictures. Returns false if `go` does.
 bool pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameters,
@@ -66,6 +68,74 @@ std::vector<double> MotionRun::medians() const {
   std::vector<double> result;
   for (const auto& repeats : ms) result.push_back(quantileOf(repeats, 0.5));
   return result;
+}
+
+std::vector<double> MotionRun::ofPass(std::size_t pass, int from, int to) const {
+  std::vector<double> images;
+  for (int i = from; i < to; ++i) images.push_back(ms[std::size_t(i)][pass]);
+  return images;
+}
+
+PairedRatio gainOf(const MotionRun& before, const MotionRun& with, int from, int to, double quantile) {
+  std::vector<double> a, b;
+  for (std::size_t pass = 0; pass < std::min(before.passes(), with.passes()); ++pass) {
+    a.push_back(quantileOf(with.ofPass(pass, from, to), quantile));
+    b.push_back(quantileOf(before.ofPass(pass, from, to), quantile));
+  }
+  return pairedRatio(a, b);
+}
+
+std::string gainText(const std::string& form, const MotionRun& before, const MotionRun& with, int from,
+                     int to) {
+  const PairedRatio smallest = gainOf(before, with, from, to, 1),
+                    median = gainOf(before, with, from, to, 0.5);
+  const MeasuredDifference gain = differenceOf(smallest);
+  const char* const verdict =
+      gain == MeasuredDifference::unknown ? "the passes are too few to tell whether the gain holds"
+      : gain == MeasuredDifference::none  ? "the passes show no difference"
+      : gain == MeasuredDifference::more && differenceOf(median) != MeasuredDifference::less
+          ? "the gain holds"
+          : "the gain does not hold";
+  char text[400];
+  std::snprintf(
+      text, sizeof text,
+      "Over %s %s: with restoration the smallest rate of the sweep is %.2f times (%.2f to %.2f) that "
+      "of before (published 1.7), the median rate %.2f times (%.2f to %.2f); medians of %zu passes "
+      "with their 95 %% intervals, which need 6.",
+      form.c_str(), verdict, smallest.median, smallest.low, smallest.high, median.median, median.low,
+      median.high, smallest.pairs);
+  return text;
+}
+
+std::vector<double> rapidDrops(const MotionRun& run) {
+  std::vector<double> drops;
+  for (std::size_t pass = 0; pass < run.passes(); ++pass) {
+    const std::vector<double> ms = run.ofPass(pass, 0, int(run.ms.size()));
+    double count = 0;
+    for (std::size_t i = 1; i < ms.size(); ++i) count += ms[i - 1] / ms[i] < 1 - kDrop;
+    drops.push_back(count);
+  }
+  return drops;
+}
+
+std::string rapidDropsText(const std::string& form, const MotionRuns& runs) {
+  const std::vector<double> without = rapidDrops(runs[1]), with = rapidDrops(runs[2]);
+  const PairedDifference difference = pairedDifference(without, with);
+  const MeasuredDifference found = differenceOf(difference);
+  const char* const verdict =
+      found == MeasuredDifference::less   ? "restoration leaves fewer rapid drops of the rate"
+      : found == MeasuredDifference::more ? "restoration adds rapid drops of the rate"
+      : found == MeasuredDifference::none ? "rapid drops of the rate show no difference"
+                                          : "the passes are too few to compare rapid drops";
+  char text[480];
+  std::snprintf(text, sizeof text,
+                "Over %s %s: %.0f with it, %.0f without (difference %.0f, %.0f to %.0f), %.0f without the "
+                "mechanism; medians of %zu passes with a 95 %% interval, which needs 6. A rapid drop is an "
+                "image whose rate is %.0f %% below the one before.",
+                form.c_str(), verdict, quantileOf(with, 0.5), quantileOf(without, 0.5), difference.median,
+                difference.low, difference.high, quantileOf(rapidDrops(runs[0]), 0.5), difference.pairs,
+                kDrop * 100);
+  return text;
 }
 
 Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& profile,

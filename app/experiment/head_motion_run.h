@@ -9,6 +9,7 @@
 
 #include "stage.h"
 #include "trimtab/hold/cost_model.h"
+#include "trimtab/measure/paired_ratio.h"
 
 /// What the experiments of document C share: a head that is moved over a place, in each mode of the
 /// optimizer.
@@ -44,6 +45,9 @@ struct MotionRun {
 
   /// Returns the median of the passes, by image.
   std::vector<double> medians() const;
+  std::size_t passes() const { return ms.empty() ? 0 : ms.front().size(); }
+  /// Returns the times of the images from `from` up to `to` in one pass.
+  std::vector<double> ofPass(std::size_t pass, int from, int to) const;
 };
 using MotionRuns = std::array<MotionRun, kMotionModes.size()>;
 
@@ -53,6 +57,20 @@ using MotionRuns = std::array<MotionRun, kMotionModes.size()>;
 /// the median image of a first pass in mode *before*. `kept` names the images whose pixels are kept.
 Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& profile,
                            const std::function<bool(int image)>& kept, const std::string& what);
+
+/// Returns how many times the rate of one mode is that of mode `before`, at a quantile of the images' times
+/// from `from` up to `to`: 1 for the smallest rate, 0.5 for the median one. Each pass is a pair, because its
+/// slowest image may be any disturbance of the machine.
+PairedRatio gainOf(const MotionRun& before, const MotionRun& with, int from, int to, double quantile);
+/// Says whether document C's gain, 1.7 times the smallest rate, shows over this form of the terrain, as far
+/// as the intervals tell.
+std::string gainText(const std::string& form, const MotionRun& before, const MotionRun& with, int from,
+                     int to);
+
+/// Returns how often in each pass the rate falls rapidly from one image to the next.
+std::vector<double> rapidDrops(const MotionRun& run);
+/// Says whether restoration leaves fewer rapid drops, as far as the passes tell.
+std::string rapidDropsText(const std::string& form, const MotionRuns& runs);
 
 /// Returns the forms of the terrain that an experiment compares, as they are drawn: what the preset asks for,
 /// then tiled levels and static trees, as far as the database has them.

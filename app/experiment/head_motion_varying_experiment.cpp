@@ -31,9 +31,6 @@ constexpr std::array<Stretch, 14> kStretches{{{0.3, 0, 0},
                                               {0.75, 0, 120},
                                               {0.9, 0, 0}}};
 
-/// A rate that falls by more than this share from one image to the next is a rapid drop.
-constexpr double kDrop = 0.3;
-
 HeadProfile varying() {
   HeadProfile profile;
   for (const Stretch& s : kStretches) profile.seconds += s.seconds;
@@ -50,12 +47,6 @@ HeadProfile varying() {
   return profile;
 }
 
-double rapidDrops(const std::vector<double>& ms) {
-  int drops = 0;
-  for (std::size_t i = 1; i < ms.size(); ++i) drops += ms[i - 1] / ms[i] < 1 - kDrop;
-  return drops;
-}
-
 double changes(const std::vector<double>& values) {
   int count = 0;
   for (std::size_t i = 1; i < values.size(); ++i) count += values[i] != values[i - 1];
@@ -70,7 +61,7 @@ void addVaryingRows(Table& table, const std::string& form, const MotionRuns& run
   row("fps_min", [](const MotionRun& r) { return 1000 / quantileOf(r.medians(), 1); });
   row("fps_p5", [](const MotionRun& r) { return 1000 / quantileOf(r.medians(), 0.95); });
   row("fps_median", [](const MotionRun& r) { return 1000 / quantileOf(r.medians(), 0.5); });
-  row("rapid_drops", [](const MotionRun& r) { return rapidDrops(r.medians()); });
+  row("rapid_drops", [](const MotionRun& r) { return quantileOf(rapidDrops(r), 0.5); });
   row("vertices_mean", [](const MotionRun& r) { return std::round(meanOf(r.vertices)); });
   row("vertices_max",
       [](const MotionRun& r) { return *std::max_element(r.vertices.begin(), r.vertices.end()); });
@@ -113,14 +104,7 @@ Result<Report> runHeadMotionVarying(const Setup& setup) {
         **stage, over, profile, [](int) { return false; }, "varying motion over " + name);
     if (!runs) return runs.findings();
     addVaryingRows(report.measured, name, *runs);
-    const double before = rapidDrops((*runs)[1].medians()), after = rapidDrops((*runs)[2].medians());
-    char text[240];
-    std::snprintf(
-        text, sizeof text,
-        "Over %s restoration leaves %.0f rapid drops of the rate where without it there are %.0f, and %.0f "
-        "without the mechanism. A rapid drop is an image whose rate is %.0f %% below the one before.",
-        name.c_str(), after, before, rapidDrops((*runs)[0].medians()), kDrop * 100);
-    report.notes.push_back(text);
+    report.notes.push_back(rapidDropsText(name, *runs));
     report.plots.push_back(motionPlot("head-motion-varying-fps-" + name, "Frame rate, " + name,
                                       "frame rate (1/s)", *runs, [](const MotionRun& r) {
                                         std::vector<double> fps = r.medians();

@@ -6,6 +6,7 @@
 
 #include "stage.h"
 #include "trimtab/fuzzy/bands.h"
+#include "trimtab/measure/machine_watch.h"
 #include "trimtab/measure/paired_ratio.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/error_meter.h"
@@ -255,6 +256,7 @@ std::vector<Moment> momentsOf(const Setup& setup, const ValidatedParameters& par
 }
 
 Result<Leverage> measureLeverage(const Setup& setup) {
+  const MachineWatch watch;
   if (!setup.flight || setup.flight->states.empty())
     return Finding{Severity::error, "leverage", {}, "a flight over the terrain", "none"};
   auto stage = Stage::open(setup);
@@ -276,6 +278,7 @@ Result<Leverage> measureLeverage(const Setup& setup) {
   leverage.widthPx = setup.widthPx;
   leverage.heightPx = setup.heightPx;
   leverage.repeats = std::max(setup.repeats, 1);
+  leverage.othersShare = watch.othersShare();
   return leverage;
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,8 @@ struct Leverage {
   std::string machine, flight, terrain, preset;
   std::size_t frames = 0;
   int widthPx = 0, heightPx = 0, repeats = 0;
+  /// What other programs took of the machine meanwhile, 0 to 1; NaN: unknown.
+  double othersShare = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Returns the request with one lever set to a value and no policy, as a decision of a policy with that

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "leverage.h"
+#include "trimtab/measure/machine_watch.h"
+#include "trimtab/measure/paired_ratio.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::experiment {
@@ -56,6 +58,21 @@ std::string formatted(const char* format, Values... values) {
   return text;
 }
 
+/// What the interval of the time won says.
+const char* verdictOf(const LeverageRow& row) {
+  switch (differenceOf(PairedDifference{row.wonMs.median, row.wonMs.low, row.wonMs.high})) {
+    case MeasuredDifference::more:
+      return "wins time";
+    case MeasuredDifference::less:
+      return "loses time";
+    case MeasuredDifference::none:
+      return "no difference";
+    case MeasuredDifference::unknown:
+      break;
+  }
+  return "too few frames";
+}
+
 /// "Render scale" and "1 to 0.5", with the condition.
 std::string nameOf(const LeverageRow& row) {
   const LeverRow& lever = rowOf(row.lever);
@@ -95,21 +112,26 @@ std::string toJson(const Leverage& leverage) {
   Json rows = Json::array();
   for (const LeverageRow& row : leverage.rows) {
     const LeverRow& lever = rowOf(row.lever);
-    Json object = {{"lever", lever.key}, {"unit", lever.unit}, {"condition", row.condition}};
+    Json object = {{"lever", lever.key},
+                   {"unit", lever.unit},
+                   {"condition", row.condition},
+                   {"verdict", verdictOf(row)}};
     const std::vector<double> numbers = numbersOf(row);
     for (std::size_t i = 0; i < kColumns.size(); ++i)
       object[kColumns[i].name] = std::isfinite(numbers[i]) ? Json(numbers[i]) : Json();
     rows.push_back(std::move(object));
   }
-  const Json json = {{"leverage", rows},
-                     {"machine", leverage.machine},
-                     {"flight", leverage.flight},
-                     {"terrain", leverage.terrain},
-                     {"preset", leverage.preset},
-                     {"frames", leverage.frames},
-                     {"width_px", leverage.widthPx},
-                     {"height_px", leverage.heightPx},
-                     {"repeats", leverage.repeats}};
+  const Json json = {
+      {"leverage", rows},
+      {"machine", leverage.machine},
+      {"flight", leverage.flight},
+      {"terrain", leverage.terrain},
+      {"preset", leverage.preset},
+      {"frames", leverage.frames},
+      {"width_px", leverage.widthPx},
+      {"height_px", leverage.heightPx},
+      {"repeats", leverage.repeats},
+      {"others_share", std::isfinite(leverage.othersShare) ? Json(leverage.othersShare) : Json()}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -138,6 +160,9 @@ Result<Leverage> parseLeverage(std::string_view text, const std::string& where) 
     leverage.widthPx = json.at("width_px");
     leverage.heightPx = json.at("height_px");
     leverage.repeats = json.at("repeats");
+    // Older results do not say it.
+    if (const auto others = json.find("others_share"); others != json.end() && !others->is_null())
+      leverage.othersShare = *others;
     return leverage;
   } catch (const Json::exception& e) {
     return Finding{Severity::error, where, {}, "the JSON of trimtab-cli leverage", e.what()};
@@ -149,11 +174,12 @@ Report toReport(const Leverage& leverage) {
   report.name = "leverage";
   report.source = leverage.flight + " over " + leverage.terrain + ", preset " + leverage.preset;
   report.machine = leverage.machine;
-  report.measured.columns = {"lever", "unit", "condition"};
+  report.measured.columns = {"lever", "unit", "condition", "verdict"};
   for (const Column& column : kColumns) report.measured.columns.push_back(column.name);
   for (const LeverageRow& row : leverage.rows) {
     const LeverRow& lever = rowOf(row.lever);
-    std::vector<Cell> cells{std::string(lever.key), std::string(lever.unit), row.condition};
+    std::vector<Cell> cells{std::string(lever.key), std::string(lever.unit), row.condition,
+                            std::string(verdictOf(row))};
     for (const double number : numbersOf(row)) cells.emplace_back(number);
     report.measured.rows.push_back(std::move(cells));
   }
@@ -164,10 +190,13 @@ Report toReport(const Leverage& leverage) {
           "times at both ends in turns, after the image before it.",
           leverage.frames, leverage.widthPx, leverage.heightPx, leverage.repeats),
       "Won and lost are medians of the frames' differences; _low and _high are the ends of their 95 % "
-      "intervals. FLIP and the geometric error (largest of a frame, pixels) are against the reference image.",
+      "intervals; the verdict is what the interval of the milliseconds won says. FLIP and the geometric "
+      "error (largest of a frame, pixels) are against the reference image.",
       "flip_lost_per_ms is given only where the interval says that time is won.",
       "A row with a condition has nothing to do in this flight as it is: it is measured with what its "
       "condition names."};
+  if (std::string busy = busyText(leverage.othersShare); !busy.empty())
+    report.notes.push_back(std::move(busy));
   const auto bars = [&](const char* file, const char* title, const char* label, Estimate LeverageRow::*of) {
     Series series{label, {}, {}};
     Plot plot{file, title, "", label, {}, {}};

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "trimtab/hold/cost_model_file.h"
-#include "trimtab/measure/statistics.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/grid/progress.h"
@@ -128,12 +127,6 @@ double meanOf(const std::vector<double>& values) {
   double sum = 0;
   for (const double v : values) sum += v;
   return values.empty() ? std::numeric_limits<double>::quiet_NaN() : sum / static_cast<double>(values.size());
-}
-
-double quantileOf(std::vector<double> values, double fraction) {
-  SampleWindow window(std::max<std::size_t>(values.size(), 1));
-  for (const double v : values) window.add(v);
-  return window.quantile(fraction);
 }
 
 Finding notOverTerrain(const Setup& setup) {

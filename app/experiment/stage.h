@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiment.h"
+#include "trimtab/measure/statistics.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/scene/weather_cut_error.h"
@@ -76,8 +77,7 @@ inline bool blurs(const FrameRequest& request) {
 std::size_t differingPixels(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
 
 double meanOf(const std::vector<double>& values);
-/// Returns the quantile by nearest rank.
-double quantileOf(std::vector<double> values, double fraction);
+using trimtab::quantileOf;
 
 /// Returns the finding that no place of the flight is above the terrain.
 Finding notOverTerrain(const Setup& setup);

@@ -22,6 +22,8 @@ constexpr int kTurn = 9, kSettlingTurns = 10, kTurns = 6;
 constexpr int kLearningTurns = 12;
 /// The clear frame's time is the median of the last turns, because the machine's speed changes.
 constexpr int kRemembered = 3 * kTurn;
+/// So many pairs of clear air and weather have an interval that leaves out the farthest at either end.
+constexpr int kPairs = 9;
 
 }  // namespace
 
@@ -90,6 +92,15 @@ std::vector<double> WeatherView::drawn(const WeatherDecision& weather, int frame
 
 double WeatherView::ms(const WeatherDecision& weather) {
   return quantileOf(drawn(weather, repeats_), 0.5);
+}
+
+WeatherView::BesideClear WeatherView::besideClear(const WeatherDecision& weather) {
+  std::vector<double> clearMs, weatherMs;
+  for (int pair = 0; pair < kPairs; ++pair) {
+    clearMs.push_back(ms({}));
+    weatherMs.push_back(ms(weather));
+  }
+  return {quantileOf(clearMs, 0.5), quantileOf(weatherMs, 0.5), pairedRatio(clearMs, weatherMs)};
 }
 
 WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overClear) {

@@ -51,6 +51,13 @@ class WeatherView {
   void setError(double px);
   /// Returns the median work time of a frame with this weather, milliseconds.
   double ms(const WeatherDecision& weather);
+  /// A weather beside clear air, milliseconds of work.
+  struct BesideClear {
+    double clearMs = 0, ms = 0;  ///< medians
+    PairedRatio ofClear;         ///< its time over that of clear air
+  };
+  /// Measures frames with this weather and frames of clear air in turns: enough of them for an interval.
+  BesideClear besideClear(const WeatherDecision& weather);
   /// What the arbiter made of a frame.
   struct Held {
     PairedRatio ofClear;  ///< its work time over that of the clear frame

@@ -132,7 +132,7 @@ std::optional<std::vector<Unit>> measureFrame(experiment::Stage& stage, scene::E
   for (std::size_t repeat = 0; repeat < plan.repeats; ++repeat)
     for (std::size_t i = 0; i < n; ++i) {
       // Nobody is always first.
-      const std::size_t u = (i + repeat) % n;
+      const std::size_t u = (i + repeat + index) % n;
       costs[u].push_back(inFlight(runners[u].frames[index].ofRepeat(repeat), false));
     }
   for (std::size_t u = 0; u < n; ++u) {

@@ -113,6 +113,10 @@ std::string ratioText(double value) {
   return std::isfinite(value) ? plot::decimal(value, 3) : roundedText(value);
 }
 
+std::string intervalText(const PairedRatio& ratio) {
+  return ratio.pairs == 0 ? std::string() : ratioText(ratio.low) + " to " + ratioText(ratio.high);
+}
+
 std::string numberText(double value, const Quantity& quantity) {
   if (quantity.whole || quantity.kind == Quantity::Kind::count) return wholeText(value);
   // Near 1 it is the distance from it that tells frames apart.

@@ -46,6 +46,8 @@ std::string wholeText(double value);
 /// Returns milliseconds, and says so if a time is too short to matter.
 std::string msText(double value);
 std::string ratioText(double value);
+/// Returns the interval, such as "0.98 to 1.02"; empty if nothing was measured.
+std::string intervalText(const PairedRatio& ratio);
 /// Returns a label with its unit, such as "frame time (ms)".
 std::string axisText(const Quantity& quantity);
 std::vector<double> finiteOf(const Unit& unit, const Quantity& quantity);

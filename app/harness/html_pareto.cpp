@@ -26,8 +26,9 @@ Spread spreadOf(const Unit& unit, const Quantity& quantity) {
 std::string hintOf(const ReportModel& model, const Unit& unit, const Quantity& ms, const Quantity& error) {
   const Summary& s = model.summary(unit, ms);
   const double value = model.centre(unit, error);
-  return unitText(unit.name) + ": " + roundedText(s.median) + " ms (p95 " + roundedText(s.p95) + "), " +
-         std::string(error.label) + ' ' + numberText(value, error) + ' ' + std::string(error.unit);
+  return unitText(unit.name) + ": " + roundedText(s.median) + " ms (p95 " +
+         (std::isnan(s.p95) ? "-" : roundedText(s.p95)) + "), " + std::string(error.label) + ' ' +
+         numberText(value, error) + ' ' + std::string(error.unit);
 }
 
 /// Where points fall in both, and what of a unit is no number.
@@ -48,11 +49,27 @@ Points pointsOf(const ReportModel& model, const std::string& flight, const Quant
   return points;
 }
 
+/// The points on the front, by ascending error; none if the frames are too few to tell.
+std::vector<std::size_t> frontOf(const Points& points, const Quantity& error) {
+  if (points.units.empty() || medianIntervalRank(points.units.front()->frames.size()) == 0) return {};
+  std::vector<std::vector<double>> errors;
+  for (const Unit* unit : points.units) {
+    errors.emplace_back();
+    for (const MeasuredFrame& frame : unit->frames) errors.back().push_back(error.of(frame));
+  }
+  return trimtab::frontOf(points.error, points.ms, [&](std::size_t i, std::size_t j) {
+    return isBetterInBoth(trimtab::differenceOf(frameTimeRatio(*points.units[i], *points.units[j])),
+                          errorDifference(errors[i], errors[j]));
+  });
+}
+
 std::string frontSentence(const ReportModel& model, const std::string& flight, const Quantity& error) {
   const Points points = pointsOf(model, flight, error);
   if (points.units.empty()) return {};
+  const std::vector<std::size_t> front = frontOf(points, error);
+  if (front.empty()) return "The frames are too few to tell what is on the front.";
   std::string text;
-  for (const std::size_t i : frontOf(points.error, points.ms)) {
+  for (const std::size_t i : front) {
     text += (text.empty() ? "" : "; ") + unitText(points.units[i]->name) + " (" + roundedText(points.ms[i]) +
             " ms, " + numberText(points.error[i], error) + ')';
   }
@@ -60,16 +77,6 @@ std::string frontSentence(const ReportModel& model, const std::string& flight, c
 }
 
 }  // namespace
-
-std::vector<std::size_t> frontOf(const std::vector<double>& x, const std::vector<double>& y) {
-  std::vector<std::size_t> order(x.size()), front;
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return x[a] != x[b] ? x[a] < x[b] : y[a] < y[b]; });
-  for (const std::size_t i : order)
-    if (front.empty() || y[i] < y[front.back()]) front.push_back(i);
-  return front;
-}
 
 std::vector<const Quantity*> paretoErrors(const ReportModel& model) {
   std::vector<const Quantity*> errors;
@@ -91,7 +98,9 @@ plot::Plot paretoOf(const ReportModel& model, const std::string& flight, const Q
   plot.logY = plot::spansDecades(points.ms);
 
   plot::Series front{"front", {}, {}, plot::Series::Draw::steps};
-  for (const std::size_t i : frontOf(points.error, points.ms)) {
+  for (const std::size_t i : frontOf(points, error)) {
+    // Points that do not differ share the front, and its line leads along the lower ones.
+    if (!front.y.empty() && points.ms[i] >= front.y.back()) continue;
     front.x.push_back(points.error[i]);
     front.y.push_back(points.ms[i]);
   }
@@ -149,7 +158,9 @@ std::string paretoSection(const ReportModel& model) {
             "Lower left is best. A point is a preset in one case over a whole flight: the median frame time "
             "at the mean error. Whiskers run from the 5th to the 95th percentile of its frames; one without "
             "an end runs beyond the plot. The dashed "
-            "line joins what no other point beats in both. Lines join the cases of one preset. Each preset "
+            "line joins the front: what no other point surely beats, frame by frame, in one without losing "
+            "in "
+            "the other. Lines join the cases of one preset. Each preset "
             "is held against its own reference: the same view in the same air at the finest levels of the "
             "terrain that it draws, tiles or static trees, without culling and blur.") +
         legend(model.keys());

@@ -92,7 +92,8 @@ std::string stageTable(const ReportModel& model) {
     for (const Quantity* q : stages) {
       const Summary& s = model.summary(unit, *q);
       const std::size_t ran = finiteOf(unit, *q).size();
-      std::string more = msText(s.p95) + " / " + msText(s.p99);
+      const auto orNone = [](double ms) { return std::isnan(ms) ? std::string("-") : msText(ms); };
+      std::string more = orNone(s.p95) + " / " + orNone(s.p99);
       if (ran < unit.frames.size())
         more += "; in " + std::to_string(ran) + " of " + std::to_string(unit.frames.size());
       table.number(s.median, msText(s.median), more);

@@ -13,8 +13,6 @@ namespace trimtab::harness {
 plot::Plot paretoOf(const ReportModel& model, const std::string& flight, const Quantity& error);
 /// Returns the errors that frame time is plotted against: those that were measured, FLIP first.
 std::vector<const Quantity*> paretoErrors(const ReportModel& model);
-/// Returns the indices of the points that no other point beats in both coordinates, by ascending x.
-std::vector<std::size_t> frontOf(const std::vector<double>& x, const std::vector<double>& y);
 
 std::string headSection(const ReportModel& model);
 std::string paretoSection(const ReportModel& model);

@@ -18,19 +18,11 @@ std::vector<const Quantity*> measuredOf(const ReportModel& model, Kind kind) {
   return list;
 }
 
-/// "a, b and c".
-std::string enumeration(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  return text;
-}
-
 std::string absentText(const ReportModel& model, Kind kind) {
   std::vector<std::string> absent;
   for (const Quantity& q : quantities())
     if (q.kind == kind && !model.measured(q)) absent.emplace_back(q.label);
-  return absent.empty() ? std::string() : "Not run, or not measured here: " + enumeration(absent) + ".";
+  return absent.empty() ? std::string() : "Not run, or not measured here: " + enumerated(absent) + ".";
 }
 
 std::vector<HtmlColumn> nameColumns(const ReportModel& model) {
@@ -59,28 +51,46 @@ void defectCell(HtmlTable& table, const Unit& unit, const Quantity& quantity) {
                "bad");
 }
 
+/// A percentile, or why there is none.
+void percentileCell(HtmlTable& table, double value, std::size_t frames, std::string_view more = {}) {
+  if (std::isnan(value) && frames > 0) return table.text("- (too few frames)");
+  table.number(value, roundedText(value), more);
+}
+
 std::string timeTable(const ReportModel& model) {
   auto columns = nameColumns(model);
   const Quantity& ms = *quantityOf("frame_ms");
-  for (const char* rank : {"median", "p95", "p99"})
-    columns.push_back({rank, "ms", "of the frame times of this row"});
+  columns.push_back({"median", "ms", "of the frame times of this row"});
+  columns.push_back(
+      {"p95", "ms",
+       "of the frame times of this row, from 20 frames on; beneath, where that of the flight lies: "
+       "each bound with 95 % confidence"});
+  columns.push_back({"p99", "ms", "of the frame times of this row, from 100 frames on"});
   columns.push_back({"over budget", "%", "share of the frames that are longer than the budget"});
+  columns.push_back({"verdict", "", "whether 95 % of the frames are surely within the budget", false});
   const auto counts = measuredOf(model, Kind::count);
   for (const Quantity* q : counts)
     columns.push_back({std::string(q->label), "", "median of the frames; beneath, the largest"});
   HtmlTable table("Frame time, and what a frame draws and leaves out (median; beneath, the largest)",
                   columns);
-  for (const Unit& unit : model.results.units) {
-    nameCells(table, model, unit.name);
-    const Summary& time = model.summary(unit, ms);
-    for (const double value : {time.median, time.p95, time.p99}) table.number(value, roundedText(value));
-    const double over = answerRow(unit, model.results.budgetMs).overShare * 100;
-    table.number(over, roundedText(over));
-    for (const Quantity* q : counts) {
-      const auto values = finiteOf(unit, *q);
-      const double median = model.summary(unit, *q).median;
-      table.number(median, wholeText(median),
-                   values.empty() ? "" : wholeText(*std::max_element(values.begin(), values.end())));
+  for (const Answer& answer : answersOf(model.results)) {
+    const auto units = model.unitsOf(answer.flight);
+    for (std::size_t u = 0; u < units.size(); ++u) {
+      const Unit& unit = *units[u];
+      const AnswerRow& row = answer.rows[u];
+      nameCells(table, model, unit.name);
+      table.number(row.medianMs, roundedText(row.medianMs));
+      const std::size_t timed = finiteOf(unit, ms).size();
+      percentileCell(table, row.p95Ms, timed, boundsText(row.p95BoundsMs));
+      percentileCell(table, row.p99Ms, timed);
+      table.number(row.overShare * 100, roundedText(row.overShare * 100));
+      table.text(verdictText(answer, u));
+      for (const Quantity* q : counts) {
+        const auto values = finiteOf(unit, *q);
+        const double median = model.summary(unit, *q).median;
+        table.number(median, wholeText(median),
+                     values.empty() ? "" : wholeText(*std::max_element(values.begin(), values.end())));
+      }
     }
   }
   return table.take();
@@ -109,27 +119,17 @@ std::string errorTable(const ReportModel& model) {
   return table.take();
 }
 
-std::string readingOf(const PairedRatio& ratio) {
-  if (!std::isfinite(ratio.median)) return "not measured";
-  if (!std::isfinite(ratio.low) || !std::isfinite(ratio.high)) return "too few pairs to tell";
-  if (ratio.low <= 1 && ratio.high >= 1) return "no difference shown";
-  if (ratio.median >= 1.995) return roundedText(ratio.median) + " times as long";
-  const double percent = std::abs(ratio.median - 1) * 100;
-  return roundedText(percent) + (ratio.median < 1 ? " % faster" : " % slower");
-}
-std::string intervalOf(const PairedRatio& ratio) {
-  return std::isnan(ratio.low) || std::isnan(ratio.high)
-             ? std::string()
-             : ratioText(ratio.low) + " to " + ratioText(ratio.high);
-}
 const char* classOf(const PairedRatio& ratio) {
-  return ratio.high < 1 ? "good" : ratio.low > 1 ? "slow" : "";
+  const MeasuredDifference difference = differenceOf(ratio);
+  return difference == MeasuredDifference::less   ? "good"
+         : difference == MeasuredDifference::more ? "slow"
+                                                  : "";
 }
 
 constexpr const char* kHowToRead =
     "Both were drawn in turn, frame by frame, so that what disturbs the machine disturbs both. An interval "
     "holds the true ratio with 95 % confidence: where it does not contain 1 the difference is real, where it "
-    "does the run shows none.";
+    "does there is none to tell from noise.";
 
 /// What the two have in common is named once.
 std::string comparisonText(const Comparison& c) {
@@ -144,7 +144,7 @@ struct Verdict {
   const char* name;
   int look, shape;
 };
-constexpr Verdict kVerdicts[]{{"faster", 2, 4}, {"slower", 1, 2}, {"no difference shown", 0, 0}};
+constexpr Verdict kVerdicts[]{{"faster", 2, 4}, {"slower", 1, 2}, {"no difference, or too few pairs", 0, 0}};
 
 std::string forest(const ReportModel& model, const std::string& flight) {
   plot::Plot plot{"ratios", flight, "frame time, ratio (below 1: faster)", "", {}, {}};
@@ -159,7 +159,10 @@ std::string forest(const ReportModel& model, const std::string& flight) {
     for (const Comparison& c : model.results.comparisons) {
       if (c.b.flight != flight) continue;
       const PairedRatio& r = c.frameTime;
-      const int look = r.high < 1 ? 2 : r.low > 1 ? 1 : 0;
+      const MeasuredDifference difference = differenceOf(r);
+      const int look = difference == MeasuredDifference::less   ? 2
+                       : difference == MeasuredDifference::more ? 1
+                                                                : 0;
       const double kNone = std::nan("");
       const bool mine = look == verdict.look && r.median > 0;
       series.y.push_back(mine ? r.median : kNone);
@@ -167,7 +170,7 @@ std::string forest(const ReportModel& model, const std::string& flight) {
       series.xHigh.push_back(mine ? r.high : kNone);
       series.shapes.push_back(verdict.shape);
       series.hints.push_back(unitText(c.b) + " over " + unitText(c.a) + ": " + roundedText(r.median) + " (" +
-                             intervalOf(r) + "), " + std::to_string(r.pairs) + " pairs");
+                             intervalText(r) + "), " + std::to_string(r.pairs) + " pairs");
     }
     plot.series.push_back(std::move(series));
   }
@@ -216,8 +219,8 @@ std::string skipsSection(const ReportModel& model) {
       table.number(skip.savedMs, msText(skip.savedMs));
       const bool known = skip.ratio.pairs > 0;
       table.number(known ? skip.ratio.median : std::nan(""), ratioText(skip.ratio.median), "",
-                   known && skip.ratio.low > 1 ? "good" : "");
-      table.text(known ? intervalOf(skip.ratio) : "");
+                   differenceOf(skip.ratio) == MeasuredDifference::more ? "good" : "");
+      table.text(intervalText(skip.ratio));
       table.number(static_cast<double>(skip.ratio.pairs), std::to_string(skip.ratio.pairs));
     }
   if (measured == 0) return section("skips", "Skips", paragraph("No skip was measured.", "none"));
@@ -229,7 +232,7 @@ std::string skipsSection(const ReportModel& model) {
            table.take();
   if (!never.empty())
     body += paragraph(
-        "Units that are not listed beside a skip never had it to make: " + enumeration(never) + ".", "none");
+        "Units that are not listed beside a skip never had it to make: " + enumerated(never) + ".", "none");
   return section("skips", "Skips", body);
 }
 
@@ -255,9 +258,9 @@ std::string comparisonSection(const ReportModel& model) {
     table.text(unitText(c.b));
     table.text(unitText(c.a));
     table.number(c.frameTime.median, ratioText(c.frameTime.median), "", classOf(c.frameTime));
-    table.text(intervalOf(c.frameTime));
+    table.text(intervalText(c.frameTime));
     table.number(static_cast<double>(c.frameTime.pairs), std::to_string(c.frameTime.pairs));
-    table.text(readingOf(c.frameTime));
+    table.text(inWords(c.frameTime));
   }
   return section("ratios", "Paired comparisons", body + table.take());
 }

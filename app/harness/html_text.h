@@ -35,6 +35,8 @@ std::string section(const char* id, std::string_view title, std::string_view bod
 std::string base64(std::string_view bytes);
 /// Returns words with commas between them.
 std::string joined(const std::vector<std::string>& words);
+/// Returns "a, b and c".
+std::string enumerated(const std::vector<std::string>& words);
 /// Returns a count with its noun: "1 frame", "2 frames".
 std::string counted(std::size_t count, std::string_view what);
 /// Returns a size for people to read, such as "1.2 MB".

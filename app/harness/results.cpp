@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "trimtab/measure/statistics.h"
 #include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
 
@@ -62,12 +63,6 @@ Quantity error(std::string_view key, std::string_view label, std::string_view un
           .set = setField<&MeasuredFrame::error, Field>,
           .whole = std::is_same_v<decltype(FrameError{}.*Field), std::uint64_t&&>,
           .largerIsWorse = largerIsWorse};
-}
-
-/// The smallest value that `part` of the sorted values do not exceed.
-double nearestRank(const std::vector<double>& sorted, double part) {
-  const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(sorted.size())));
-  return sorted[std::clamp<std::size_t>(rank, 1, sorted.size()) - 1];
 }
 
 const Unit* unitOf(const std::vector<Unit>& units, const UnitName& name) {
@@ -133,25 +128,28 @@ Summary summarise(const Unit& unit, const Quantity& quantity) {
   // From the good end to the bad one.
   const double sign = quantity.largerIsWorse ? 1 : -1;
   for (double& value : values) value *= sign;
-  std::sort(values.begin(), values.end());
-  summary.median = nearestRank(values, 0.5) * sign;
-  summary.p95 = nearestRank(values, 0.95) * sign;
-  summary.p99 = nearestRank(values, 0.99) * sign;
-  summary.worst = values.back() * sign;
+  summary.median = quantileOf(values, 0.5) * sign;
+  summary.p95 = quantileOf(values, 0.95) * sign;
+  summary.p99 = quantileOf(values, 0.99) * sign;
+  summary.worst = quantileOf(values, 1) * sign;
   return summary;
 }
 
-PairedRatio frameTimeRatio(const Unit& a, const Unit& b) {
+PairedRatio frameTimeRatio(const Unit& a, const Unit& b, double confidence) {
   std::vector<double> ones, ratios;
-  for (const MeasuredFrame& frame : a.frames) {
-    const auto other = std::find_if(b.frames.begin(), b.frames.end(),
-                                    [&](const MeasuredFrame& f) { return f.row == frame.row; });
+  for (std::size_t i = 0; i < a.frames.size(); ++i) {
+    const MeasuredFrame& frame = a.frames[i];
+    // Units of one run have the same rows.
+    auto other = b.frames.begin() + static_cast<std::ptrdiff_t>(std::min(i, b.frames.size()));
+    if (other == b.frames.end() || other->row != frame.row)
+      other = std::find_if(b.frames.begin(), b.frames.end(),
+                           [&](const MeasuredFrame& f) { return f.row == frame.row; });
     if (other == b.frames.end()) continue;
     const PairedRatio ratio = pairedRatio(frame.repeatsMs, other->repeatsMs);
     ones.push_back(1);
     ratios.push_back(ratio.median);
   }
-  return pairedRatio(ones, ratios);
+  return pairedRatio(ones, ratios, confidence);
 }
 
 std::vector<Comparison> compareUnits(const std::vector<Unit>& units) {

@@ -78,11 +78,13 @@ struct Results {
   std::vector<Unit> units;
   std::vector<Comparison> comparisons;
   std::vector<std::string> notes;  ///< conditions
+  /// What other programs took of the machine meanwhile, 0 to 1; NaN: unknown.
+  double othersShare = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Returns the ratio of frame times b over a. Each frame counts once, by the median ratio of its repeats:
 /// disturbances that both share cancel, and the interval does not grow narrower by repeating a frame.
-PairedRatio frameTimeRatio(const Unit& a, const Unit& b);
+PairedRatio frameTimeRatio(const Unit& a, const Unit& b, double confidence = kConfidence);
 /// Compares within each flight every preset with the first one in the same case, and every other case with
 /// view_frustum in the same preset.
 std::vector<Comparison> compareUnits(const std::vector<Unit>& units);
@@ -106,8 +108,9 @@ struct Quantity {
 const std::vector<Quantity>& quantities();
 const Quantity* quantityOf(std::string_view key);
 
-/// A quantity over the frames of a unit; NaN if no frame has it. If smaller is worse (PSNR, SSIM),
-/// percentiles count from the other end: 95 % of the frames reach p95, and `worst` is the smallest value.
+/// A quantity over the frames of a unit; NaN if no frame has it, and for a percentile that the frames are not
+/// enough for. If smaller is worse (PSNR, SSIM), percentiles count from the other end: 95 % of the frames
+/// reach p95, and `worst` is the smallest value.
 struct Summary {
   double median = 0, mean = 0, p95 = 0, p99 = 0, worst = 0;
 };

@@ -35,18 +35,34 @@ Json ratioJson(const PairedRatio& ratio) {
           {"pairs", ratio.pairs}};
 }
 
-/// What tables of results show. It is derived from the frames, and not read again.
-Json summaryJson(const AnswerRow& row) {
-  return {{"median_ms", numberJson(row.medianMs)}, {"p95_ms", numberJson(row.p95Ms)},
-          {"p99_ms", numberJson(row.p99Ms)},       {"over_budget_share", numberJson(row.overShare)},
-          {"flip_mean", numberJson(row.flip)},     {"geometric_max_px", numberJson(row.geometricPx)},
-          {"pop_p95", numberJson(row.pop)},        {"fits", row.fits}};
+/// Null: the frames do not tell.
+Json fitJson(Fit fit) {
+  return fit == Fit::unsure ? Json() : Json(fit == Fit::yes);
 }
 
+/// What tables of results show. It is derived from the frames, and not read again.
+Json summaryJson(const AnswerRow& row) {
+  return {{"median_ms", numberJson(row.medianMs)},
+          {"p95_ms", numberJson(row.p95Ms)},
+          {"p95_low_ms", numberJson(row.p95BoundsMs.low)},
+          {"p95_high_ms", numberJson(row.p95BoundsMs.high)},
+          {"p99_ms", numberJson(row.p99Ms)},
+          {"over_budget_share", numberJson(row.overShare)},
+          {"flip_mean", numberJson(row.flip)},
+          {"geometric_max_px", numberJson(row.geometricPx)},
+          {"pop_p95", numberJson(row.pop)},
+          {"fits", fitJson(row.fit)}};
+}
+
+/// `equal` are those that do not differ from the best.
 Json answerJson(const Answer& answer) {
+  Json equal = Json::array();
+  for (std::size_t i = 1; i < answer.best.size(); ++i)
+    equal.push_back(nameJson(answer.rows[answer.best[i]].name));
   return {{"flight", answer.flight},
           {"budget_ms", numberJson(answer.budgetMs)},
-          {"best", answer.best ? nameJson(answer.rows[*answer.best].name) : Json()},
+          {"best", answer.best.empty() ? Json() : nameJson(answer.rows[answer.best.front()].name)},
+          {"equal", std::move(equal)},
           {"why", answer.why}};
 }
 
@@ -257,14 +273,17 @@ std::string toJson(const Results& results) {
                {"height_px", results.heightPx},
                {"repeats", results.repeats},
                {"budget_ms", numberJson(results.budgetMs)},
+               {"others_share", numberJson(results.othersShare)},
                {"notes", results.notes},
                {"answers", Json::array()},
                {"comparisons", Json::array()},
                {"units", Json::array()}};
   for (const Answer& answer : answersOf(results)) json["answers"].push_back(answerJson(answer));
   for (const Comparison& c : results.comparisons)
-    json["comparisons"].push_back(
-        {{"a", nameJson(c.a)}, {"b", nameJson(c.b)}, {"frame_time", ratioJson(c.frameTime)}});
+    json["comparisons"].push_back({{"a", nameJson(c.a)},
+                                   {"b", nameJson(c.b)},
+                                   {"frame_time", ratioJson(c.frameTime)},
+                                   {"reading", inWords(c.frameTime)}});
   for (const Unit& unit : results.units) json["units"].push_back(unitJson(unit, results.budgetMs));
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
@@ -290,6 +309,9 @@ Result<Results> parseResults(std::string_view text, const std::string& where) {
   results.heightPx = readPixels(reader, Reader::member(json, "height_px"), "height_px");
   results.repeats = reader.whole(Reader::member(json, "repeats"), "repeats");
   results.budgetMs = reader.number(Reader::member(json, "budget_ms"), "budget_ms");
+  // Older results do not say it.
+  if (const Json& others = Reader::member(json, "others_share"); !others.is_discarded())
+    results.othersShare = reader.number(others, "others_share");
   reader.list(Reader::member(json, "notes"), "notes", [&](const Json& note, const std::string& at) {
     results.notes.push_back(reader.text(note, at));
   });

@@ -14,6 +14,7 @@
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/measure/cost_stages.h"
+#include "trimtab/measure/machine_watch.h"
 #include "trimtab/preset/choices.h"
 #include "trimtab/scene/error_meter.h"
 #include "trimtab/scene/gl_report.h"
@@ -91,6 +92,7 @@ class Run {
   Clock::time_point start_ = Clock::now();
   std::string doing_;
   bool cancelled_ = false;
+  MachineWatch watch_;
 };
 
 bool Run::goOn() {
@@ -325,6 +327,7 @@ Result<Results> Run::all() {
     for (const std::string& key : unit.unknownSignals) unknown.push_back(unknownFinding(unit.name, key));
   for (const Finding& finding : unknown)
     results.notes.push_back(finding.where + ": nobody knew the signal " + finding.key + "; " + finding.found);
+  results.othersShare = watch_.othersShare();
   results.comparisons = compareUnits(results.units);
   if (const auto done = store_.write("frames.csv", toCsv(results)); !done) return done.findings();
   if (const auto done = store_.write("results.json", toJson(results)); !done) return done.findings();

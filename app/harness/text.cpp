@@ -40,8 +40,26 @@ void append(std::string& text, const std::vector<Row>& rows, std::size_t names) 
 
 Row ratioRow(Row names, const PairedRatio& ratio) {
   names.insert(names.end(), {fixed(ratio.median, 3), fixed(ratio.low, 3) + " to " + fixed(ratio.high, 3),
-                             std::to_string(ratio.pairs)});
+                             std::to_string(ratio.pairs), inWords(ratio)});
   return names;
+}
+
+void appendRows(std::vector<Row>& rows, const Results& results, const Answer& answer) {
+  std::size_t at = 0;
+  for (const Unit& unit : results.units) {
+    if (unit.name.flight != answer.flight) continue;
+    const AnswerRow& row = answer.rows[at];
+    const auto of = [&unit](const char* key) { return summarise(unit, *quantityOf(key)); };
+    double wrong = 0;
+    for (const MeasuredFrame& frame : unit.frames)
+      wrong += static_cast<double>(frame.error.wronglyCulledPixels);
+    rows.push_back({unit.name.flight, unit.name.preset, unit.name.method, std::to_string(unit.frames.size()),
+                    fixed(row.medianMs, 2), fixed(row.p95Ms, 2), boundsText(row.p95BoundsMs),
+                    fixed(row.p99Ms, 2), fixed(row.overShare * 100, 1), fixed(of("triangles").mean, 0),
+                    fixed(row.flip, 5), fixed(of("flip").worst, 5), fixed(row.geometricPx, 2),
+                    fixed(row.pop, 2), fixed(wrong, 0), verdictText(answer, at)});
+    ++at;
+  }
 }
 
 /// A line a skip, over all units; the document has each unit's.
@@ -79,28 +97,20 @@ std::string toText(const Results& results) {
   std::string text = results.terrain + ", " + std::to_string(results.widthPx) + "x" +
                      std::to_string(results.heightPx) + ", " + std::to_string(results.repeats) +
                      (results.repeats == 1 ? " draw" : " draws") + " a frame; " + results.machine + "\n\n";
-  std::vector<Row> rows{{"flight", "preset", "case", "frames", "median ms", "p95 ms", "p99 ms",
-                         "over budget %", "triangles", "FLIP", "worst FLIP", "geometric px", "pop",
-                         "wrongly culled px"}};
-  for (const Unit& unit : results.units) {
-    const auto of = [&unit](const char* key) { return summarise(unit, *quantityOf(key)); };
-    const AnswerRow row = answerRow(unit, results.budgetMs);
-    double wrong = 0;
-    for (const MeasuredFrame& frame : unit.frames)
-      wrong += static_cast<double>(frame.error.wronglyCulledPixels);
-    rows.push_back({unit.name.flight, unit.name.preset, unit.name.method, std::to_string(unit.frames.size()),
-                    fixed(row.medianMs, 2), fixed(row.p95Ms, 2), fixed(row.p99Ms, 2),
-                    fixed(row.overShare * 100, 1), fixed(of("triangles").mean, 0), fixed(row.flip, 5),
-                    fixed(of("flip").worst, 5), fixed(row.geometricPx, 2), fixed(row.pop, 2),
-                    fixed(wrong, 0)});
-  }
+  std::vector<Row> rows{{"flight", "preset", "case", "frames", "median ms", "p95 ms", "of the flight",
+                         "p99 ms", "over budget %", "triangles", "FLIP", "worst FLIP", "geometric px", "pop",
+                         "wrongly culled px", "verdict"}};
+  const std::vector<Answer> answers = answersOf(results);
+  for (const Answer& answer : answers) appendRows(rows, results, answer);
   append(text, rows, 3);
   text +=
       "Triangles and FLIP are means, geometric px the largest of all frames, pop (of 255) its p95, wrongly "
-      "culled px their sum.\n";
-  for (const Answer& answer : answersOf(results)) text += '\n' + answer.flight + ": " + answer.why + '\n';
+      "culled px their sum. A p95 needs 20 frames and a p99 100. Each bound of the flight's p95 is sure by "
+      "95 %; "
+      "a preset fits if that p95 is surely within the budget.\n";
+  for (const Answer& answer : answers) text += '\n' + answer.flight + ": " + answer.why + '\n';
   if (!results.comparisons.empty()) {
-    rows = {{"flight", "this", "", "over that", "", "frame time", "95 %", "frames"}};
+    rows = {{"flight", "this", "", "over that", "", "frame time", "95 %", "frames", "so it is"}};
     for (const Comparison& c : results.comparisons)
       rows.push_back(ratioRow({c.b.flight, c.b.preset, c.b.method, c.a.preset, c.a.method}, c.frameTime));
     text += '\n';

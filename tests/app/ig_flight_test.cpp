@@ -185,7 +185,8 @@ TEST_F(IgFlight, playsOnTheFlightsOwnClockWhenAsked) {
   EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(59 * 1000 / 60));
   EXPECT_EQ(rowsOf(dir_ / "trace.csv").size(), 60u);
   EXPECT_LE(ig.summary()["frames"], 60);
-  EXPECT_TRUE(ig.summary()["picture_p99_ms"].is_number());
+  EXPECT_TRUE(ig.summary()["picture_p99_ms"].is_null()) << "sixty images have no 99th percentile";
+  EXPECT_TRUE(ig.summary()["frame_median_ms"].is_number());
 }
 
 TEST_F(IgFlight, aKilledRunLeavesItsRowsInAPartAndTheOldTraceUntouched) {

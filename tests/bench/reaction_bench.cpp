@@ -62,7 +62,7 @@ void measureReactions(Report& report, MainWindow& window, Eye& eye, const std::s
                        const std::function<double(int)>& once) {
     std::vector<double> ms;
     eye.forgetImages();
-    for (int i = 0; i < (report.quick() ? 15 : 60); ++i) ms.push_back(once(i));
+    for (int i = 0; i < (report.quick() ? 20 : 60); ++i) ms.push_back(once(i));
     report.add(valueAtMost(
         kLimitMs, {"reaction." + part,
                    "p95 of the time from " + input + " to the display, while a flight plays over " + terrain,

@@ -201,7 +201,8 @@ TEST(ControllerStress, statisticsAreThoseOfTheLastFrames) {
     if (dice.one(0.01)) cost = dice.one(0.5) ? std::nan("") : HUGE_VAL;
     window.add(cost);
     if (std::isfinite(cost)) all.push_back(cost);
-    if (i % 5003 != 0 || all.empty()) continue;
+    // Fewer have no 99th percentile.
+    if (i % 5003 != 0 || all.size() < 100) continue;
     if (all.size() > 4 * kWindow) all.erase(all.begin(), all.end() - kWindow);
     std::vector<double> last(all.size() > kWindow ? all.end() - kWindow : all.begin(), all.end());
     Quad sum = 0;

@@ -200,7 +200,8 @@ TEST_F(BudgetPanelTest, recordsARunAndComparesItWithTheSameFlownAgain) {
   fly(9, 20, 101);
   settle();
   EXPECT_EQ(panel.comparisonText(),
-            "Recorded: 2 s, median 30 ms, p99 30 ms\nFlown again: 2 s, median 20 ms, p99 20 ms");
+            "Recorded: 2 s, median 30 ms, p99 30 ms\nFlown again: 2 s, median 20 ms, p99 20 ms; too short to "
+            "compare");
   // The recorded times lie over those of the new flight.
   const auto recorded = panel.plot().recorded().data();
   ASSERT_EQ(recorded->size(), 101);
@@ -210,6 +211,31 @@ TEST_F(BudgetPanelTest, recordsARunAndComparesItWithTheSameFlownAgain) {
   fly(20, 70, 10);
   settle();
   EXPECT_FALSE(panel.comparisonText().contains("70")) << "the run is over";
+}
+
+TEST_F(BudgetPanelTest, comparesTwoRunsSecondBySecondAndCallsNoiseNoDifference) {
+  const auto fly = [&](double ms, double everyOther, int images) {
+    for (int i = 0; i < images; ++i) {
+      LiveFrame frame = frameAt(i / 10.0, HoldReason::off, 1);
+      frame.input.state.time = 100 + i / 10.0;
+      frame.cost.total = i / 10 % 2 ? ms : ms * everyOther;
+      panel.showFrame(frame);
+    }
+  };
+  panel.show();
+  const auto compared = [&](double ms, double everyOther) {
+    panel.recordButton().click();
+    fly(30, 1, 95);
+    panel.recordButton().click();
+    settle();
+    EXPECT_TRUE(panel.comparisonText().endsWith("p99 – ms")) << "95 images have no 99th percentile";
+    panel.replayButton().click();
+    fly(ms, everyOther, 95);
+    settle();
+    return panel.comparisonText().section("; ", 1);
+  };
+  EXPECT_EQ(compared(15, 1), "50 % faster (× 0.5 to 0.5, by second)");
+  EXPECT_EQ(compared(29, 1.08), "no difference (× 0.97 to 1.04, by second)");
 }
 
 TEST_F(BudgetPanelTest, fliesAgainUnderEachModeOfTheExperimentAndUndoTakesItBack) {

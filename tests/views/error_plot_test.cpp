@@ -36,6 +36,14 @@ class ErrorPlotTest : public testing::Test {
 
 TEST_F(ErrorPlotTest, placesEachPresetAndCaseAtItsMediansWithWhiskersByPercentile) {
   ASSERT_EQ(plot_.points().size(), 3u);
+  EXPECT_TRUE(std::isnan(plot_.points()[1].msLow)) << "eleven frames have no 5th percentile";
+  ErrorRun twice = test::sampleRun();
+  for (ErrorRun::Series& s : twice.series) {
+    s.ms += QVector<double>(s.ms);
+    for (QVector<double>& errors : s.errors) errors += QVector<double>(errors);
+  }
+  plot_.show(twice);
+  settle();
   const ErrorPlot::Point& fine = plot_.points()[1];
   EXPECT_NEAR(fine.error, 0.02, 1e-12);
   EXPECT_NEAR(fine.ms, 10, 1e-12);
@@ -56,9 +64,33 @@ TEST_F(ErrorPlotTest, theFrontHoldsWhatNothingBeatsInBoth) {
   EXPECT_TRUE(plot_.points()[2].onFront);
 }
 
+TEST_F(ErrorPlotTest, noisePutsNothingOnTheFrontAndTakesNothingOffIt) {
+  ErrorRun run = test::sampleRun();
+  // The coarse preset again, faster in some frames and slower in others; and slower for a FLIP that is
+  // smaller in one frame alone.
+  ErrorRun::Series again = run.series[2], lucky = run.series[2];
+  for (int i = 0; i < again.ms.size(); ++i) again.ms[i] += i % 2 ? 0.05 : -0.06;
+  for (double& ms : lucky.ms) ms *= 1.5;
+  lucky.errors[0][5] = 0.01;
+  lucky.errors[0][6] = 0.0799;
+  run.series << again << lucky;
+  plot_.show(run);
+  EXPECT_TRUE(plot_.points()[2].onFront);
+  EXPECT_TRUE(plot_.points()[3].onFront) << "what does not differ shares the front";
+  EXPECT_LT(plot_.points()[4].error, plot_.points()[2].error);
+  EXPECT_FALSE(plot_.points()[4].onFront) << "two frames of eleven";
+  for (ErrorRun::Series& s : run.series) {
+    s.ms.resize(5);
+    for (QVector<double>& errors : s.errors) errors.resize(5);
+  }
+  plot_.show(run);
+  for (const ErrorPlot::Point& p : plot_.points()) EXPECT_FALSE(p.onFront) << "five frames tell nothing";
+}
+
 TEST_F(ErrorPlotTest, anotherErrorMovesThePointsAndLowerLeftStaysBest) {
   const QPointF before = plot_.pixelOf(plot_.points()[2]);
-  EXPECT_GT(before.x(), plot_.pixelOf(plot_.points()[1]).x());
+  const QPointF fine = plot_.pixelOf(plot_.points()[1]);
+  EXPECT_GT(before.x(), fine.x());
   plot_.showError(1);
   settle();
   ASSERT_EQ(plot_.points().size(), 3u);
@@ -66,7 +98,7 @@ TEST_F(ErrorPlotTest, anotherErrorMovesThePointsAndLowerLeftStaysBest) {
   EXPECT_EQ(plot_.points()[2].error, 30);
   EXPECT_TRUE(plot_.xAxis->rangeReversed());
   EXPECT_GT(plot_.pixelOf(plot_.points()[2]).x(), plot_.pixelOf(plot_.points()[1]).x());
-  EXPECT_NE(plot_.pixelOf(plot_.points()[2]), before);
+  EXPECT_NE(plot_.pixelOf(plot_.points()[1]), fine);
   EXPECT_TRUE(plot_.points()[0].onFront);
   plot_.select(0);
   EXPECT_TRUE(plot_.selectedText().contains("equal")) << plot_.selectedText().toStdString();

@@ -23,6 +23,9 @@ class RecordedRun {
   const std::vector<AircraftState>& states() const { return states_; }
   /// Returns the work time of the image of each state, milliseconds.
   const std::vector<double>& ms() const { return ms_; }
+  /// Returns the median of each second's images, counted from the state time `beginS` on; NaN for a second
+  /// without images. Images of one second are alike, so that seconds are what two runs are compared by.
+  std::vector<double> mediansBySecond(double beginS) const;
 
  private:
   std::vector<AircraftState> states_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "trimtab/measure/statistics.h"
 #include "trimtab/units/not_finite.h"
 
 namespace trimtab::views {
@@ -257,19 +258,11 @@ bool TraceBuffer::isNewImage(std::uint64_t frame) const {
 }
 
 TraceBuffer::Statistics TraceBuffer::statistics(Trace trace, std::uint64_t from, std::uint64_t to) const {
-  std::vector<float> samples;
+  std::vector<double> samples;
   for (std::uint64_t f = std::max(from, begin()); f < std::min(to, count_); ++f)
     if (const float v = value(trace, f); std::isfinite(v)) samples.push_back(v);
-  if (samples.empty()) return {kNan, kNan, kNan, kNan};
-  const auto rank = [&](double share) {
-    const auto n = static_cast<std::size_t>(std::ceil(share * static_cast<double>(samples.size())));
-    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(n, 1) - 1);
-    std::nth_element(samples.begin(), at, samples.end());
-    return static_cast<double>(*at);
-  };
-  const auto [least, largest] = std::minmax_element(samples.begin(), samples.end());
-  const double low = *least, high = *largest;
-  return {low, rank(0.5), rank(0.95), high};
+  return {quantileOf(samples, 0), quantileOf(samples, 0.5), quantileOf(samples, 0.95),
+          quantileOf(samples, 1)};
 }
 
 void TraceBuffer::columns(Trace trace, std::uint64_t from, std::uint64_t to, std::size_t wanted,

@@ -128,7 +128,7 @@ class TraceBuffer {
                std::vector<Column>& out) const;
 
   /// Order statistics by nearest rank over the frames from `from` up to `to`; all NaN if nothing was
-  /// measured. Costs a partial sort of them.
+  /// measured, p95 also for too few frames. Costs a partial sort of them.
   struct Statistics {
     double least, median, p95, largest;
   };

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trimtab/measure/paired_ratio.h"
 #include "views/controls/parameter_lines.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
@@ -84,11 +85,19 @@ QString wonText(const HoldDecision& d, const HoldGains& gains) {
 }
 
 QString inWords(const RecordedRun& run) {
-  SampleWindow times(std::max<std::size_t>(run.images(), 1));
-  for (const double ms : run.ms()) times.add(ms);
   return BudgetPanel::tr("%1 s, median %2 ms, p99 %3 ms")
-      .arg(numberText(run.durationS(), 1), numberText(times.median(), 1),
-           numberText(times.quantile(0.99), 1));
+      .arg(numberText(run.durationS(), 1), numberText(quantileOf(run.ms(), 0.5), 1),
+           numberText(quantileOf(run.ms(), 0.99), 1));
+}
+
+/// What the run that was flown again took, second by second of the flight.
+QString comparedText(const RecordedRun& recorded, const RecordedRun& replayed) {
+  const double beginS = recorded.states().front().time;
+  const PairedRatio ratio = pairedRatio(recorded.mediansBySecond(beginS), replayed.mediansBySecond(beginS));
+  if (differenceOf(ratio) == MeasuredDifference::unknown) return BudgetPanel::tr("too short to compare");
+  return BudgetPanel::tr("%1 (× %2 to %3, by second)")
+      .arg(QString::fromStdString(trimtab::inWords(ratio)), numberText(ratio.low, 2),
+           numberText(ratio.high, 2));
 }
 
 }  // namespace
@@ -99,6 +108,7 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
       state_(new QLabel(tr("The budget is not held: switch it on below"))),
       residuals_(new QLabel),
       comparison_(new QLabel),
+      busy_(new QLabel),
       plot_(new BudgetPlot),
       record_(new QPushButton(tr("&Record"))),
       replay_(new QPushButton(tr("Fl&y again"))),
@@ -109,7 +119,12 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
   QFont bold = font();
   bold.setBold(true);
   state_->setFont(bold);
-  for (QLabel* label : {state_, residuals_, comparison_}) label->setWordWrap(true);
+  for (QLabel* label : {state_, residuals_, comparison_, busy_}) label->setWordWrap(true);
+  comparison_->setToolTip(tr(
+      "A p99 needs 100 images. Runs are compared by the medians of each second, with the interval that holds "
+      "the ratio by 95 %. They were flown one after the other, so that what the machine did in between is "
+      "part of what differs; Measure and Compare draw in turns"));
+  busy_->hide();
   residuals_->setToolTip(
       tr("Predictions made three images ahead, of the last 300 images: the median error of triangles and of "
          "time, and the share of images within the 90 % band."));
@@ -172,6 +187,7 @@ QLayout* BudgetPanel::makeRecorder() {
   auto* column = new QVBoxLayout;
   column->addLayout(row);
   column->addWidget(comparison_);
+  column->addWidget(busy_);
   return column;
 }
 
@@ -189,7 +205,7 @@ void BudgetPanel::switchTo(int mode) {
 }
 
 void BudgetPanel::setRecording(bool on) {
-  if (on) recorded_ = {}, replayed_ = {}, stage_ = Replay::none;
+  if (on) recorded_ = {}, replayed_ = {}, stage_ = Replay::none, watch_ = {};
   refresh();
 }
 
@@ -266,8 +282,12 @@ void BudgetPanel::compare() {
   replay_->setEnabled(recorded_.images() > 1);
   QString text =
       recorded_.images() == 0 ? tr("Nothing is recorded") : tr("Recorded: %1").arg(inWords(recorded_));
-  if (replayed_.images() > 0) text += QLatin1Char('\n') + tr("Flown again: %1").arg(inWords(replayed_));
+  if (replayed_.images() > 0)
+    text += QLatin1Char('\n') +
+            tr("Flown again: %1; %2").arg(inWords(replayed_), comparedText(recorded_, replayed_));
   comparison_->setText(text);
+  busy_->setText(images > 0 ? QString::fromStdString(busyText(watch_.othersShare())) : QString());
+  busy_->setVisible(!busy_->text().isEmpty());
 }
 
 void BudgetPanel::refreshLevers() {

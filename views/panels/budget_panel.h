@@ -4,6 +4,7 @@
 #include <QWidget>
 
 #include "trimtab/hold/frame_hold.h"
+#include "trimtab/measure/machine_watch.h"
 #include "trimtab/measure/statistics.h"
 #include "views/controls/reason_list.h"
 #include "views/model/draft.h"
@@ -59,7 +60,7 @@ class BudgetPanel : public QWidget {
   void switchTo(int mode);
 
   Draft& draft_;
-  QLabel *state_, *residuals_, *comparison_;
+  QLabel *state_, *residuals_, *comparison_, *busy_;
   BudgetPlot* plot_;
   QPushButton *record_, *replay_;
   QTableWidget* levers_;
@@ -72,6 +73,7 @@ class BudgetPanel : public QWidget {
   /// time was within the band.
   SampleWindow trianglesOff_{kOutcomes}, timeOff_{kOutcomes}, within_{kOutcomes};
   RecordedRun recorded_, replayed_;
+  MachineWatch watch_;              ///< since the recording began
   std::size_t comparedImages_ = 0;  ///< the images of both runs that the comparison counts
   /// The state of the replay: there is none, it was asked for and has no image yet, or it is flown.
   enum class Replay { none, asked, flies } stage_ = Replay::none;

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
+#include "trimtab/measure/paired_ratio.h"
 #include "trimtab/measure/statistics.h"
 #include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
@@ -152,13 +155,32 @@ void ErrorPlot::compute() {
     points_.push_back({i, errors.median(), ms.median(), errors.quantile(0.05), errors.quantile(0.95),
                        ms.quantile(0.05), ms.quantile(0.95)});
   }
-  const double sign = shown->largerIsWorse ? 1 : -1;
-  for (Point& p : points_)
-    p.onFront = std::none_of(points_.begin(), points_.end(), [&](const Point& q) {
-      const double pe = sign * p.error, qe = sign * q.error;
-      return qe <= pe && q.ms <= p.ms && (qe < pe || q.ms < p.ms);
-    });
+  findFront(*shown);
   if (selected_ > int(points_.size())) selected_ = -1;
+}
+
+/// Noise puts no point on the front: those are on it that no other surely beats, frame by frame, in one of
+/// the two without losing in the other. Too few frames make none.
+void ErrorPlot::findFront(const ErrorRun::Error& shown) {
+  const double sign = shown.largerIsWorse ? 1 : -1;
+  std::vector<double> x, y;
+  std::vector<std::vector<double>> errors;
+  for (const Point& p : points_) {
+    x.push_back(sign * p.error);
+    y.push_back(p.ms);
+    errors.emplace_back();
+    for (const double value : run_.series.at(p.series).errors.at(error_))
+      errors.back().push_back(sign * placeOf(shown, value));
+    if (medianIntervalRank(errors.back().size()) == 0) return;
+  }
+  const auto msOf = [&](std::size_t point) {
+    return std::span<const double>(run_.series.at(points_[point].series).ms);
+  };
+  for (const std::size_t i : frontOf(x, y, [&](std::size_t p, std::size_t q) {
+         return isBetterInBoth(differenceOf(pairedRatio(msOf(p), msOf(q))),
+                               errorDifference(errors[p], errors[q]));
+       }))
+    points_[i].onFront = true;
 }
 
 bool ErrorPlot::liveCompares() const {
@@ -204,11 +226,13 @@ void ErrorPlot::drawPoints() {
     graph->setScatterStyle({shapeOf(s.method), QPen(base, 1), QBrush(colour), kMarkerPx});
     graph->setData({p.error}, {p.ms});
     for (const bool vertical : {true, false}) {
+      const double at = vertical ? p.ms : p.error;
+      const double low = vertical ? p.msLow : p.errorLow, high = vertical ? p.msHigh : p.errorHigh;
+      if (std::isnan(low)) continue;
       auto* whisker = new QCPErrorBars(xAxis, yAxis);
       whisker->setErrorType(vertical ? QCPErrorBars::etValueError : QCPErrorBars::etKeyError);
       whisker->setDataPlottable(graph);
-      const double at = vertical ? p.ms : p.error;
-      whisker->setData({at - (vertical ? p.msLow : p.errorLow)}, {(vertical ? p.msHigh : p.errorHigh) - at});
+      whisker->setData({at - low}, {high - at});
       whisker->setPen(QPen(blend(base, colour, 0.6), 1.2));
       whisker->setWhiskerWidth(5);
       whisker->setSymbolGap(kMarkerPx);
@@ -218,16 +242,20 @@ void ErrorPlot::drawPoints() {
 }
 
 void ErrorPlot::drawFront() {
+  // Points that do not differ share the front, and its line leads along the lower ones.
+  const bool worse = error() == nullptr || error()->largerIsWorse;
   QVector<double> x, y;
-  for (const Point& p : points_)
-    if (p.onFront) {
-      x << p.error;
-      y << p.ms;
-    }
+  for (const Point& p : points_) {
+    const bool low = std::none_of(points_.begin(), points_.end(), [&](const Point& q) {
+      return q.onFront && (worse ? q.error <= p.error : q.error >= p.error) && q.ms < p.ms;
+    });
+    if (!p.onFront || !low) continue;
+    x << p.error;
+    y << p.ms;
+  }
   QCPGraph* front = addGraph();
   front->setData(x, y);
-  front->setLineStyle(error() != nullptr && !error()->largerIsWorse ? QCPGraph::lsStepRight
-                                                                    : QCPGraph::lsStepLeft);
+  front->setLineStyle(worse ? QCPGraph::lsStepLeft : QCPGraph::lsStepRight);
   front->setPen(
       QPen(blend(palette().color(QPalette::Base), palette().color(QPalette::Text), 0.5), 1.2, Qt::DotLine));
 }
@@ -271,6 +299,7 @@ void ErrorPlot::fit() {
     high = std::max(high, y);
   };
   for (const Point& p : points_) {
+    hold(p.error, p.ms);
     hold(p.errorLow, p.msLow);
     hold(p.errorHigh, p.msHigh);
   }

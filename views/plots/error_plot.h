@@ -16,11 +16,11 @@ struct LiveError {
 };
 
 /// Shows run time against error. Each preset in each case is a point at the medians of its frames, with its
-/// marker by case, its colour by preset, and whiskers from the 5th to the 95th percentile. The front joins
-/// the points that no other beats in both. A line is the budget, and the live session is a point with a
-/// fading tail. Lower left is best whatever the error: an axis on which larger is better runs the other way.
-/// A live point of images of another size than the results' cannot be compared with them: it is hollow, is
-/// named with its size, and does not widen the view.
+/// marker by case, its colour by preset, and whiskers from the 5th to the 95th percentile of enough frames.
+/// The front joins the points that no other surely beats, as results report it. A line is the budget, and the
+/// live session is a point with a fading tail. Lower left is best whatever the error: an axis on which larger
+/// is better runs the other way. A live point of images of another size than the results' cannot be compared
+/// with them: it is hollow, is named with its size, and does not widen the view.
 class ErrorPlot : public Plot {
   Q_OBJECT
  public:
@@ -80,6 +80,7 @@ class ErrorPlot : public Plot {
   double liveError(const LiveError& live) const;
   QPointF placeLive(const LiveError& live) const;
   void compute();
+  void findFront(const ErrorRun::Error& shown);
   void redraw();
   void drawPoints();
   void drawFront();

@@ -36,14 +36,18 @@ QString digits(double value) {
   return views::textOf({{}, {}, {}, true}, value);
 }
 
-QTableWidgetItem* verdictOf(const harness::AnswerRow& row, bool best) {
-  // Sorted by rank: the best, then what fits.
-  return new Number(best       ? 0
-                    : row.fits ? 1
-                               : 2,
-                    best       ? AnswerPage::tr("★ best that fits")
-                    : row.fits ? AnswerPage::tr("fits")
-                               : AnswerPage::tr("over budget"));
+/// A percentile, or why there is none.
+QTableWidgetItem* percentileOf(double value, int needed) {
+  auto* cell = new Number(value, digits(value));
+  if (std::isnan(value)) cell->setToolTip(AnswerPage::tr("Needs %1 frames").arg(needed));
+  return cell;
+}
+
+QTableWidgetItem* verdictOf(const harness::Answer& answer, std::size_t row) {
+  // Sorted by rank: the best, then what fits, then what may.
+  const double rank = answer.isBest(row) ? -1 : double(answer.rows[row].fit);
+  const QString words = QString::fromStdString(harness::verdictText(answer, row));
+  return new Number(rank, answer.isBest(row) ? QStringLiteral("★ ") + words : words);
 }
 
 }  // namespace
@@ -60,15 +64,19 @@ AnswerPage::AnswerPage(QWidget* parent)
       QT_TR_NOOP("The preset"),
       QT_TR_NOOP("The culling case in which it was drawn"),
       QT_TR_NOOP("Half of the frames take no longer"),
-      QT_TR_NOOP("95 % of the frames take no longer. A preset fits if this is within the budget"),
-      QT_TR_NOOP("99 % of the frames take no longer"),
+      QT_TR_NOOP("95 % of the frames take no longer. It needs 20 frames"),
+      QT_TR_NOOP("99 % of the frames take no longer. It needs 100 frames"),
       QT_TR_NOOP("Share of the frames that take longer than the budget"),
       QT_TR_NOOP("Difference from the reference that a person sees, 0 to 1; mean of the frames"),
       QT_TR_NOOP("By how many pixels the ground is displaced at most"),
       QT_TR_NOOP(
           "By how much the image jumps from frame to frame beyond the reference; 95 % of the frames jump "
           "no more"),
-      QT_TR_NOOP("Whether the preset fits, and which of those that fit has the smallest FLIP")};
+      QT_TR_NOOP(
+          "A preset fits if 95 % of its frames are surely within the budget, and may fit where the frames do "
+          "not "
+          "tell. The best have the smallest FLIP, or the shortest frames where FLIP does not differ; if "
+          "several are the best, no difference between them can be told from noise")};
   for (int column = 0; column < kAnswerColumns; ++column)
     table_->horizontalHeaderItem(column)->setToolTip(tr(hints[column]));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -123,7 +131,7 @@ void AnswerPage::fill() {
   table_->setRowCount(answer_ ? int(answer_->rows.size()) : 0);
   for (int i = 0; i < table_->rowCount(); ++i) {
     const harness::AnswerRow& row = answer_->rows[std::size_t(i)];
-    const bool best = answer_->best == std::size_t(i);
+    const bool best = answer_->isBest(std::size_t(i));
     table_->setItem(i, preset, new QTableWidgetItem(QString::fromStdString(row.name.preset)));
     table_->setItem(i, culling,
                     new QTableWidgetItem(views::methodText(QString::fromStdString(row.name.method))));
@@ -131,19 +139,23 @@ void AnswerPage::fill() {
       table_->setItem(i, column, new Number(value, digits(value)));
     };
     put(median, row.medianMs);
-    put(p95, row.p95Ms);
-    put(p99, row.p99Ms);
+    table_->setItem(i, p95, percentileOf(row.p95Ms, 20));
+    if (std::isfinite(row.p95Ms))
+      table_->item(i, p95)->setToolTip(
+          tr("Of the flight: %1, each bound with 95 % confidence")
+              .arg(QString::fromStdString(harness::boundsText(row.p95BoundsMs))));
+    table_->setItem(i, p99, percentileOf(row.p99Ms, 100));
     put(over, row.overShare * 100);
     put(flip, row.flip);
     put(geometric, row.geometricPx);
     put(pop, row.pop);
-    table_->setItem(i, verdict, verdictOf(row, best));
+    table_->setItem(i, verdict, verdictOf(*answer_, std::size_t(i)));
     for (int column = 0; column < kAnswerColumns; ++column) {
       QTableWidgetItem& cell = *table_->item(i, column);
       if (best)
         cell.setBackground(
             views::blend(palette().color(QPalette::Base), views::seriesColour(2, palette()), 0.25));
-      if (!row.fits) cell.setForeground(views::quietColour(palette()));
+      if (row.fit == harness::Fit::no) cell.setForeground(views::quietColour(palette()));
     }
   }
   table_->setSortingEnabled(true);

@@ -283,7 +283,7 @@ void ErrorDock::showAnswer() {
     return answer_->clear();
   }
   answer_->show(*results_, flight(), draft_.active()->measure.budget.value());
-  sweep_->show(*answer_->answer());
+  sweep_->show(*results_, *answer_->answer());
 }
 
 void ErrorDock::onMeasured(const LiveMeter::Measured& measured) {

@@ -18,6 +18,7 @@
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "app/experiment/leverage.h"
@@ -132,7 +133,9 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
   repeats_->setRange(1, 100);
   repeats_->setValue(3);
   repeats_->setSuffix(tr(" frames"));
-  repeats_->setToolTip(tr("Frames per view; their median counts"));
+  repeats_->setToolTip(
+      tr("Frames per view; their median counts. Head motion flies so many passes, and six tell whether it "
+         "gains"));
   repeats_->setAccessibleName(tr("Frames per view"));
   notes_->setReadOnly(true);
   notes_->setAccessibleName(tr("Notes"));
@@ -185,6 +188,8 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
   };
   explain();
   connect(which_, &QComboBox::currentIndexChanged, this, [this, explain] {
+    if (which_->currentData().toString().startsWith(QLatin1String("head-motion")))
+      repeats_->setValue(std::max(repeats_->value(), 6));
     explain();
     if (status_->text() == refusal_) status_->setText(hint());
   });

@@ -60,7 +60,7 @@ QString pictureText(const Latency& latency) {
   const double shown = latency.shown.quantile(0.99), frame = latency.frame.median();
   return HostDock::tr("%1, %2 frames of %3  (overtaken packets too: %4)")
       .arg(milliseconds(shown))
-      .arg(shown / frame, 0, 'f', 2)
+      .arg(std::isfinite(shown) ? QString::number(shown / frame, 'f', 2) : kNone)
       .arg(milliseconds(frame), milliseconds(latency.every.quantile(0.99)));
 }
 

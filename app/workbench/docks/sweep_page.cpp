@@ -43,15 +43,17 @@ QString nameOf(const harness::Sweep& sweep) {
            axes.join(QStringLiteral(" × ")));
 }
 
-/// The best row of one sweep, which need not be the best of the whole answer.
-std::size_t bestOf(const harness::Sweep& sweep, const harness::Answer& answer) {
-  std::size_t best = harness::Sweep::kNotMeasured;
-  for (const std::size_t row : sweep.rows) {
-    if (row == harness::Sweep::kNotMeasured || !answer.rows[row].fits) continue;
-    if (best == harness::Sweep::kNotMeasured || harness::better(answer.rows[row], answer.rows[best]))
-      best = row;
-  }
-  return best;
+/// The best rows of one sweep.
+std::vector<std::size_t> bestIn(const harness::Sweep& sweep, const harness::Results& results,
+                                const harness::Answer& answer) {
+  std::vector<std::size_t> rows;
+  for (const std::size_t row : sweep.rows)
+    if (row != harness::Sweep::kNotMeasured) rows.push_back(row);
+  return harness::bestOf(results, answer, rows);
+}
+
+bool holds(const std::vector<std::size_t>& rows, std::size_t row) {
+  return std::find(rows.begin(), rows.end(), row) != rows.end();
 }
 
 }  // namespace
@@ -60,7 +62,7 @@ SweepPage::SweepPage(QWidget* parent)
     : QWidget(parent),
       choice_(new QComboBox(this)),
       quantity_(new QComboBox(this)),
-      best_(new QLabel(this)),
+      said_(new QLabel(this)),
       pages_(new QStackedWidget(this)),
       nothing_(
           new QLabel(tr("No parameter was swept. Measure has a choice of one or two parameters to sweep."))),
@@ -71,7 +73,7 @@ SweepPage::SweepPage(QWidget* parent)
   quantity_->addItems({tr("p95 (ms)"), tr("median (ms)"), tr("over budget (%)"), tr("FLIP"),
                        tr("geometric, largest (px)"), tr("pop p95 (of 255)")});
   quantity_->setAccessibleName(tr("What the map shows"));
-  best_->setWordWrap(true);
+  said_->setWordWrap(true);
   nothing_->setAlignment(Qt::AlignCenter);
   nothing_->setWordWrap(true);
   map_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -87,7 +89,7 @@ SweepPage::SweepPage(QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(4, 4, 4, 4);
   column->addLayout(top);
-  column->addWidget(best_);
+  column->addWidget(said_);
   column->addWidget(pages_, 1);
   connect(choice_, &QComboBox::currentIndexChanged, this, &SweepPage::showSweep);
   connect(quantity_, &QComboBox::currentIndexChanged, this, &SweepPage::showSweep);
@@ -95,13 +97,15 @@ SweepPage::SweepPage(QWidget* parent)
 }
 
 void SweepPage::clear() {
-  show({});
+  show({}, {});
 }
 
-void SweepPage::show(const harness::Answer& answer) {
+void SweepPage::show(const harness::Results& results, const harness::Answer& answer) {
   const int kept = choice_->currentIndex();
   answer_ = answer;
   sweeps_ = harness::sweepsOf(answer_);
+  best_.clear();
+  for (const harness::Sweep& sweep : sweeps_) best_.push_back(bestIn(sweep, results, answer_));
   {
     const QSignalBlocker quiet(choice_);
     choice_->clear();
@@ -112,33 +116,38 @@ void SweepPage::show(const harness::Answer& answer) {
 }
 
 QString SweepPage::text() const {
-  return best_->text();
+  return said_->text();
 }
 
 void SweepPage::showSweep() {
   const int index = choice_->currentIndex();
   const bool any = index >= 0 && std::size_t(index) < sweeps_.size();
-  for (QWidget* part : {static_cast<QWidget*>(choice_), static_cast<QWidget*>(best_)}) part->setVisible(any);
+  for (QWidget* part : {static_cast<QWidget*>(choice_), static_cast<QWidget*>(said_)}) part->setVisible(any);
   if (!any) {
     quantity_->hide();
     return pages_->setCurrentWidget(nothing_);
   }
   const harness::Sweep& sweep = sweeps_[std::size_t(index)];
-  const std::size_t best = bestOf(sweep, answer_);
+  const std::vector<std::size_t>& best = best_[std::size_t(index)];
   const QString budget = views::msText(answer_.budgetMs);
-  best_->setText(best == harness::Sweep::kNotMeasured
-                     ? tr("None of these values fits %1.").arg(budget)
-                     : tr("★ %1 has the smallest FLIP of what fits %2.")
-                           .arg(QString::fromStdString(answer_.rows[best].name.preset), budget));
+  QStringList names;
+  for (const std::size_t row : best) names << QString::fromStdString(answer_.rows[row].name.preset);
+  if (names.isEmpty())
+    said_->setText(tr("None of these values fits %1.").arg(budget));
+  else if (names.size() == 1)
+    said_->setText(tr("★ %1 is the best of what fits %2.").arg(names[0], budget));
+  else
+    said_->setText(tr("★ %1 do not differ, and are the best of what fits %2.")
+                       .arg(names.join(QStringLiteral(", ")), budget));
   quantity_->setVisible(sweep.axes.size() > 1);
   sweep.axes.size() > 1 ? showMap(sweep, best) : showLine(sweep, best);
 }
 
-void SweepPage::showLine(const harness::Sweep& sweep, std::size_t best) {
+void SweepPage::showLine(const harness::Sweep& sweep, const std::vector<std::size_t>& best) {
   views::SweepLine line{titleOf(sweep.axes[0]), valuesOf(sweep.axes[0]), {}, {}, answer_.budgetMs, -1};
   for (const std::size_t row : sweep.rows) {
     const bool measured = row != harness::Sweep::kNotMeasured;
-    if (measured && row == best) line.best = line.ms.size();
+    if (measured && !best.empty() && row == best.front()) line.best = line.ms.size();
     line.ms.append(measured ? answer_.rows[row].p95Ms : kNan);
     line.flip.append(measured ? answer_.rows[row].flip : kNan);
   }
@@ -166,7 +175,7 @@ double SweepPage::valueOf(std::size_t row) const {
   return kNan;
 }
 
-void SweepPage::showMap(const harness::Sweep& sweep, std::size_t best) {
+void SweepPage::showMap(const harness::Sweep& sweep, const std::vector<std::size_t>& best) {
   const auto down = sweep.axes[0].values.size(), across = sweep.axes[1].values.size();
   map_->setRowCount(int(down));
   map_->setColumnCount(int(across));
@@ -184,15 +193,16 @@ void SweepPage::showMap(const harness::Sweep& sweep, std::size_t best) {
     for (std::size_t j = 0; j < across; ++j) {
       const std::size_t row = sweep.at(i, j);
       const double value = valueOf(row);
-      const bool timed = row != harness::Sweep::kNotMeasured && !std::isnan(answer_.rows[row].p95Ms);
-      const bool fits = timed && answer_.rows[row].fits;
+      const bool timed = row != harness::Sweep::kNotMeasured && !std::isnan(answer_.rows[row].medianMs);
+      const bool fits = timed && answer_.rows[row].fit != harness::Fit::no;
       const QString number =
           std::isnan(value) ? QStringLiteral("–") : views::textOf({{}, {}, {}, true}, value);
-      auto* cell = new QTableWidgetItem(!timed || (fits && row != best) ? number
-                                        : fits                          ? tr("★ %1").arg(number)
-                                                                        : tr("✕ %1").arg(number));
+      auto* cell = new QTableWidgetItem(!timed || (fits && !holds(best, row)) ? number
+                                        : fits                                ? tr("★ %1").arg(number)
+                                                                              : tr("✕ %1").arg(number));
       cell->setTextAlignment(Qt::AlignCenter);
-      cell->setToolTip(!timed ? tr("not measured") : fits ? tr("fits the budget") : tr("over the budget"));
+      cell->setToolTip(timed ? QString::fromStdString(harness::verdictText(answer_, row))
+                             : tr("not measured"));
       if (std::isfinite(value)) {
         const QColor colour(gradient.color(value, QCPRange(low, std::max(high, low + 1e-12))));
         cell->setBackground(colour);

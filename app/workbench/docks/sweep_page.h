@@ -26,8 +26,8 @@ class SweepPage : public QWidget {
  public:
   explicit SweepPage(QWidget* parent = nullptr);
 
-  /// Shows the sweeps of an answer; an answer without any says how to make one.
-  void show(const harness::Answer& answer);
+  /// Shows the sweeps of an answer from these results; an answer without any says how to make one.
+  void show(const harness::Results& results, const harness::Answer& answer);
   void clear();
 
   std::size_t sweeps() const { return sweeps_.size(); }
@@ -39,15 +39,16 @@ class SweepPage : public QWidget {
   enum class Quantity { p95, median, over, flip, geometric, pop };
 
   void showSweep();
-  /// `best` is the row that is marked, or Sweep::kNotMeasured.
-  void showLine(const harness::Sweep& sweep, std::size_t best);
-  void showMap(const harness::Sweep& sweep, std::size_t best);
+  /// `best` are the rows that are marked.
+  void showLine(const harness::Sweep& sweep, const std::vector<std::size_t>& best);
+  void showMap(const harness::Sweep& sweep, const std::vector<std::size_t>& best);
   double valueOf(std::size_t row) const;
 
   harness::Answer answer_;
   std::vector<harness::Sweep> sweeps_;
+  std::vector<std::vector<std::size_t>> best_;  ///< of each sweep; they need not be the best of the answer
   QComboBox *choice_, *quantity_;
-  QLabel* best_;
+  QLabel* said_;
   QStackedWidget* pages_;
   QLabel* nothing_;
   views::SweepPlot* plot_;

@@ -14,6 +14,7 @@
 #include "split_work.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/measure/image_error.h"
+#include "trimtab/measure/machine_watch.h"
 #include "trimtab/terrain/format/database.h"
 #include "views/controls/scrollable.h"
 #include "views/model/error_run.h"
@@ -23,7 +24,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kSoonMs = 60, kPeriodMs = 300;
-/// A view that has rested for so long is drawn once more at its full size.
+/// A view that has rested for so long is drawn once more at its full size, and timed.
 constexpr int kRestMs = 400;
 constexpr int kMostOfTime = 2;
 constexpr double kQuickMs = 250;
@@ -238,7 +239,7 @@ bool SplitView::follow() {
 void SplitView::wake() {
   showAge();
   if (!active() || !terrain_ || busy_ || timer_.isActive()) return;
-  refining_ = !changed_ && shownShrink_ > 1;
+  refining_ = !changed_ && shownShrink_ > 0 && !(shownShrink_ == 1 && timed_);
   if (!changed_ && !refining_) return;
   const qint64 due = sinceLast_.isValid() ? gapMs_ - sinceLast_.elapsed() : 0;
   timer_.start(refining_ ? kRestMs : int(std::max<qint64>(due, kSoonMs)));
@@ -267,7 +268,8 @@ void SplitView::compare() {
   if (!active() || busy_ || !terrain_ || !thread_.usable()) return;
   if (!last_) follow();
   if (!last_) return;
-  const int shrink = std::exchange(refining_, false) ? 1 : shrink_;
+  const bool rests = std::exchange(refining_, false);
+  const int shrink = rests ? 1 : shrink_;
   changed_ = false;
   const auto work = std::make_shared<Work>();
   work->generation = generation_;
@@ -289,7 +291,8 @@ void SplitView::compare() {
   busy_ = true;
   sinceLast_.start();
   thread_.run(
-      [work](scene::ErrorMeter& meter) {
+      [work, rests, longestMs = longestMs_](scene::ErrorMeter& meter) {
+        const MachineWatch watch;
         QElapsedTimer timer;
         timer.start();
         auto& [a, b] = work->sides;
@@ -308,6 +311,8 @@ void SplitView::compare() {
         work->psnr = psnrDb(a.shown(), b.shown(), width, height);
         work->largest = work->map.empty() ? 0 : *std::max_element(work->map.begin(), work->map.end());
         work->tookMs = double(timer.nsecsElapsed()) * 1e-6;
+        if (rests) work->time(meter, longestMs);
+        work->othersShare = watch.othersShare();
       },
       this,
       [this, work, shrink] {
@@ -317,6 +322,7 @@ void SplitView::compare() {
         if (work->generation == generation_) {
           ++comparisons_;
           shownShrink_ = shrink;
+          timed_ = work->timed;
           showWork(*work);
           emit compared();
         }
@@ -344,11 +350,14 @@ void SplitView::showWork(const Work& work) {
   }
   heat_->show(compared.map, work.flip, work.largest);
   fill(work);
-  status_->setText(tr("Measured in %1 at %L2 × %L3 px%4; errors of left and right against the reference.")
-                       .arg(views::msText(work.tookMs))
-                       .arg(work.widthPx)
-                       .arg(work.heightPx)
-                       .arg(shownShrink_ > 1 ? tr(", smaller while the view moves") : QString()));
+  QString text = tr("Measured in %1 at %L2 × %L3 px%4; errors of left and right against the reference.")
+                     .arg(views::msText(work.tookMs))
+                     .arg(work.widthPx)
+                     .arg(work.heightPx)
+                     .arg(shownShrink_ > 1 ? tr(", smaller while the view moves") : QString());
+  if (const std::string busy = busyText(work.othersShare); !busy.empty())
+    text += QLatin1Char(' ') + QString::fromStdString(busy);
+  status_->setText(text);
 }
 
 }  // namespace trimtab::workbench

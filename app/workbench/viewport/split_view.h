@@ -30,7 +30,8 @@ namespace trimtab::workbench {
 /// Compares two presets on the frame that the viewport shows: both images, where and how much they differ,
 /// and what each costs. Each preset decides for itself, along the states that were shown while it was on. The
 /// images are drawn on the measuring thread, and only while a person sees them: in this dock, or over the
-/// viewport. While the view moves they may be smaller; once it rests they are as large as the image.
+/// viewport. While the view moves they may be smaller; once it rests they are as large as the image, and
+/// their times are compared, drawn in turns.
 class SplitView : public QWidget {
   Q_OBJECT
 
@@ -69,8 +70,8 @@ class SplitView : public QWidget {
   bool choose(Side side, const QString& name);
   static const QString kDraft, kReference;
 
-  /// Whether the current frame is shown with the current presets, at its full size.
-  bool upToDate() const { return !changed_ && !busy_ && shownShrink_ == 1; }
+  /// Whether the current frame is shown with the current presets, at its full size and with its times.
+  bool upToDate() const { return !changed_ && !busy_ && shownShrink_ == 1 && timed_; }
   bool busy() const { return busy_; }
   const QLabel& status() const { return *status_; }
   std::uint64_t comparisons() const { return comparisons_; }
@@ -122,6 +123,7 @@ class SplitView : public QWidget {
   double longestMs_ = 1500;
   int shrink_ = 1;       ///< of images while the view moves: width and height are divided by this
   int shownShrink_ = 0;  ///< of the images that are shown; 0 while there are none
+  bool timed_ = false;   ///< those images
   bool changed_ = false, busy_ = false, refining_ = false, seen_ = false, over_ = false, symbols_ = false;
   std::uint64_t comparisons_ = 0, generation_ = 0;  ///< a result of an earlier generation is dropped
 

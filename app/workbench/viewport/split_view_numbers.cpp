@@ -5,6 +5,7 @@
 
 #include "split_view.h"
 #include "split_work.h"
+#include "trimtab/measure/statistics.h"
 #include "views/model/error_run.h"
 #include "views/model/theme.h"
 
@@ -23,6 +24,15 @@ enum Column {
   kColumns
 };
 
+/// What the two times say, with the interval of their ratio. A first image that read pages says nothing.
+QString timeText(bool timed, const PairedRatio& ratio) {
+  if (!timed) return QStringLiteral("–");
+  const QString words = QString::fromStdString(inWords(ratio));
+  if (differenceOf(ratio) == MeasuredDifference::unknown) return words;
+  return SplitView::tr("%1\n× %2 to %3")
+      .arg(words, views::numberText(ratio.low, 2), views::numberText(ratio.high, 2));
+}
+
 }  // namespace
 
 void SplitView::makeNumbers() {
@@ -39,7 +49,8 @@ void SplitView::makeNumbers() {
   numbers_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   numbers_->setToolTip(
       tr("The first two rows compare with the reference; the third row compares the right image "
-         "with the left one"));
+         "with the left one. Times are of both images drawn in turns while the view rests, with the interval "
+         "that holds their ratio by 95 %"));
 }
 
 void SplitView::fill(const Work& work) {
@@ -63,7 +74,7 @@ void SplitView::fill(const Work& work) {
     put(side, maxPxColumn, views::numberText(error.geometricMaxPx, 2));
     put(side, meanPxColumn, views::numberText(error.geometricMeanPx, 3));
     put(side, trianglesColumn, QLocale().toString(qulonglong(one.drawn().visible.triangles)));
-    put(side, msColumn, views::numberText(one.drawn().cost.total, 1));
+    put(side, msColumn, views::numberText(quantileOf(one.ms, 0.5), 1));
   }
   names << tr("Right compared with left");
   errors(2, work.flip, work.ssim, work.psnr);
@@ -74,7 +85,7 @@ void SplitView::fill(const Work& work) {
   put(2, maxPxColumn, QStringLiteral("–"));
   put(2, meanPxColumn, QStringLiteral("–"));
   put(2, trianglesColumn, ratio(double(first.visible.triangles), double(second.visible.triangles)));
-  put(2, msColumn, ratio(first.cost.total, second.cost.total));
+  put(2, msColumn, timeText(work.timed, work.rightOverLeft()));
   numbers_->setVerticalHeaderLabels(names);
   int height = numbers_->horizontalHeader()->height() + 2 * numbers_->frameWidth();
   for (int row = 0; row < numbers_->rowCount(); ++row) height += numbers_->rowHeight(row);

@@ -178,6 +178,25 @@ ReferenceKey keyOf(const FrameRequest& r) {
 /// Enough for a frame and the one before it in two kinds of weather.
 constexpr std::size_t kKeptReferences = 4;
 
+/// Keeps the framebuffers that are bound, and the viewport.
+class BoundTarget {
+ public:
+  BoundTarget() {
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
+    glGetIntegerv(GL_VIEWPORT, viewport_.data());
+  }
+  void restore() const {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+  }
+
+ private:
+  GLint draw_ = 0, read_ = 0;
+  std::array<GLint, 4> viewport_{};
+};
+
 }  // namespace
 
 struct ErrorMeter::Impl {
@@ -256,17 +275,23 @@ void plant(ErrorMeter& meter, const Defects& defects) {
   meter.impl_->defects = defects;
 }
 
+FrameResult ErrorMeter::draw(const FrameRequest& request) {
+  const ViewShape& v = request.view;
+  if (!impl_->usable || v.widthPx <= 0 || v.heightPx <= 0) return {};
+  const BoundTarget bound;
+  impl_->target.resize(v.widthPx, v.heightPx);
+  FrameResult result = impl_->draw(impl_->asDrawn(withoutEngineer(request)));
+  bound.restore();
+  return result;
+}
+
 FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const FrameRequest> before,
                                ErrorPictures* pictures) {
   FrameError error;
   const ViewShape& v = request.view;
   if (!impl_->usable || v.widthPx <= 0 || v.heightPx <= 0) return error;
   Impl& m = *impl_;
-  GLint drawn = 0, read = 0;
-  std::array<GLint, 4> viewport{};
-  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &drawn);
-  glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
-  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  const BoundTarget bound;
   m.target.resize(v.widthPx, v.heightPx);
 
   const bool pops =
@@ -292,9 +317,7 @@ FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const Fram
   error.hiddenDrawnShare = hiddenShare(m.renderer.readNodes(), result.visible);
   error.wronglyCulledPixels = wronglyCulled(m.renderer.readNodes(true), result.visible);
   plant(m.renderer, {});
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(drawn));
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read));
-  glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
+  bound.restore();
 
   const GeometricError geometric =
       geometricError(upTo(request.decision.weather.farM, reference.distances), distances, v);

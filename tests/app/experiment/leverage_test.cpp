@@ -15,6 +15,7 @@
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/synthetic/sample.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::experiment {
 namespace {
@@ -121,7 +122,8 @@ TEST_F(LeverageTest, measuresEachLeverFromOneEndOfItsUsualRangeToTheOther) {
   const test::ScratchDir out;
   ASSERT_TRUE(writeLeverage(out.path(), *leverage));
   EXPECT_EQ(test::readFile(out / "leverage.json"), toJson(*leverage));
-  EXPECT_THAT(test::readFile(out / "leverage.csv"), HasSubstr("lever,unit,condition,from,to,ms_from"));
+  EXPECT_THAT(test::readFile(out / "leverage.csv"),
+              HasSubstr("lever,unit,condition,verdict,from,to,ms_from"));
   const std::string svg = test::readFile(out / "leverage.svg");
   for (const char* words :
        {"time won (ms a frame)", "image lost (FLIP", "Render scale", "16 px", "medium rain", "95 % interval"})
@@ -142,6 +144,29 @@ TEST_F(LeverageTest, needsNoConditionWhereTheFlightHasWhatALeverIsFor) {
   EXPECT_EQ(rowFor(*leverage, Lever::far_distance).condition, "");
   EXPECT_TRUE(std::isnan(leverage->rows[0].wonMs.low)) << "one frame has no interval";
   EXPECT_TRUE(std::isnan(leverage->rows[0].flipLostPerMs));
+}
+
+TEST(LeverageReport, saysWhetherALeverWinsTimeAndWhetherTheMachineWasBusy) {
+  const auto rowOf = [](double low, double median, double high) {
+    LeverageRow row;
+    row.lever = Lever::render_scale;
+    row.wonMs = {median, low, high};
+    return row;
+  };
+  Leverage leverage;
+  leverage.rows = {rowOf(0.5, 1, 2), rowOf(-0.1, 1, 2), rowOf(-2, -1, -0.5), rowOf(kNan, 1, kNan)};
+  leverage.othersShare = 0.4;
+  const Report report = toReport(leverage);
+  for (const auto& [row, verdict] :
+       {std::pair{0u, "wins time"}, {1u, "no difference"}, {2u, "loses time"}, {3u, "too few frames"}})
+    EXPECT_EQ(report.measured.text(row, "verdict"), verdict);
+  EXPECT_THAT(report.notes.back(), HasSubstr("other programs took 40 % of its processors"));
+  const auto read = parseLeverage(toJson(leverage), "a test");
+  ASSERT_TRUE(read) << toString(read.findings());
+  EXPECT_EQ(read->othersShare, 0.4);
+  EXPECT_EQ(toJson(*read), toJson(leverage));
+  leverage.othersShare = 0.02;
+  EXPECT_THAT(toText(toReport(leverage)), ::testing::Not(HasSubstr("busy")));
 }
 
 TEST_F(LeverageTest, leavesThePolicyOfThePresetOut) {

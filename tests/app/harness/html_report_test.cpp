@@ -281,7 +281,7 @@ TEST(HtmlReport, comparisonsSayWhatTheIntervalSays) {
   ASSERT_EQ(rows.size(), 3u);
   EXPECT_EQ(rows[0].back().text, "50 % faster");
   EXPECT_EQ(rows[1].back().text, "50 % slower");
-  EXPECT_EQ(rows[2].back().text, "no difference shown");
+  EXPECT_EQ(rows[2].back().text, "no difference");
   EXPECT_EQ(valueOf(rows[0], "ratio"), 0.5);
 }
 
@@ -324,6 +324,44 @@ TEST(ParetoPlot, hasAPointForEachUnitAndTheFrontOfThoseNoneBeats) {
   EXPECT_EQ(svg.select_nodes("//g").size(), 2u) << "one flight, two errors";
   ASSERT_TRUE(svg.load_string(paretoPlot(results({2, 5, {"a", "b", "c"}})).c_str()));
   EXPECT_EQ(svg.select_nodes("//g").size(), 3u) << "three flights, FLIP alone";
+}
+
+TEST(ParetoPlot, aPresetIsNotOnTheFrontByNoiseAndSeveralThatDoNotDifferAreOnItTogether) {
+  const test::ScratchDir dir;
+  Results r = results({1, 60, {"f"}, {"proposed"}});
+  Unit& one = r.units.front();
+  for (MeasuredFrame& frame : one.frames) frame.error.flip = 0.01;
+  // The same again, a little faster in half of the frames and a little slower in the others.
+  Unit noise = one, worse = one;
+  noise.name.preset = "again";
+  worse.name.preset = "worse";
+  for (std::size_t i = 0; i < noise.frames.size(); ++i) {
+    noise.frames[i].cost.total *= i % 2 ? 1.02 : 0.97;
+    worse.frames[i].cost.total *= 1.3;
+    // Its mean of FLIP is smaller by what one frame of sixty happens to have.
+    if (i == 30) worse.frames[i].error.flip = 0.005;
+    for (Unit* unit : {&noise, &worse}) unit->frames[i].repeatsMs = {unit->frames[i].cost.total};
+  }
+  r.units.insert(r.units.end(), {noise, worse});
+  std::string text = allText(pageOf(r, dir.path()).section("pareto"));
+  std::string front = text.substr(text.find("On the front"));
+  EXPECT_THAT(front, HasSubstr("default \xc2\xb7 proposed"));
+  EXPECT_THAT(front, HasSubstr("again \xc2\xb7 proposed"));
+  EXPECT_THAT(front, Not(HasSubstr("worse")));
+  for (Unit& unit : r.units) unit.frames.resize(5);
+  text = allText(pageOf(r, dir.path()).section("pareto"));
+  EXPECT_THAT(text, HasSubstr("The frames are too few to tell what is on the front."));
+}
+
+TEST(HtmlReport, showsADashWithItsReasonForAPercentileOfTooFewFrames) {
+  const test::ScratchDir dir;
+  const Page page = pageOf(results({1, 60, {"f"}, {"proposed"}}), dir.path());
+  const auto times = cellsOf(tableOf(page, "summary", 0));
+  ASSERT_EQ(times.size(), 1u);
+  EXPECT_GT(valueOf(times[0], "p95"), 0);
+  EXPECT_THAT(allText(page.section("summary")), HasSubstr("- (too few frames)")) << "of the p99";
+  EXPECT_THAT(allText(pageOf(results({1, 100, {"f"}, {"proposed"}}), dir.path()).section("summary")),
+              Not(HasSubstr("too few frames")));
 }
 
 TEST(ParetoPlot, aFolderThatIsNotThereIsAFinding) {

@@ -24,6 +24,7 @@ inline void setAll(MeasuredFrame& frame, std::size_t preset, std::size_t method,
   const double wave = 1 + 0.25 * std::sin(t * 9 + p) + (std::abs(t - 0.7) < 0.01 ? 1.5 : 0);
   frame.timeS = time;
   frame.cost.total = (24 - 7 * m) / (1 + 0.5 * p) * wave;
+  frame.repeatsMs = {frame.cost.total};
   frame.cost.decide = 0.004;
   frame.cost.select = 0.09 + 0.02 * m;
   frame.cost.occlusion = method == 2 ? 1.1 : FrameCost::kNotMeasured;

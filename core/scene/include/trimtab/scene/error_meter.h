@@ -78,6 +78,10 @@ class ErrorMeter {
     return measure(request, std::span(before, before ? 1u : 0u), pictures);
   }
 
+  /// Draws what measure() measures of a frame alone, and returns what it gave. It is for times that are
+  /// compared: draw both frames in turns, several times, after a first turn that does not count.
+  FrameResult draw(const FrameRequest& request);
+
  private:
   friend void plant(ErrorMeter& meter, const Defects& defects);  // planted_defects.h
   struct Impl;
