@@ -16,12 +16,12 @@
 #include "trimtab/host/ground_velocity.h"
 #include "trimtab/host/host_clock_offset.h"
 #include "trimtab/host/received_state.h"
-#include "trimtab/measure/statistics.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/session/air_drift.h"
 #include "trimtab/session/head_input.h"
 #include "trimtab/session/image_rate.h"
+#include "trimtab/session/latency.h"
 #include "trimtab/session/motion_ahead.h"
 #include "trimtab/session/precipitation_fade.h"
 #include "trimtab/session/signal_tracker.h"
@@ -38,16 +38,6 @@ enum class LinkState {
   jumped   ///< live, and within the last second the aircraft was moved farther than it can fly
 };
 std::string_view toText(LinkState state);
-
-/// Latencies of the newest packets and images, milliseconds.
-struct Latency {
-  SampleWindow decoded{4096};  ///< from the kernel's time stamp to the decoded state
-  SampleWindow shown{
-      4096};  ///< from the kernel's time stamp of the packet that an image shows, to that image
-  /// As `shown`, also for packets that a newer one overtook: to the image that shows the newer one.
-  SampleWindow every{4096};
-  SampleWindow frame{4096};  ///< from the request of an image that shows a packet to its end
-};
 
 class Session {
  public:
@@ -103,7 +93,7 @@ class Session {
   double packetAge(double now) const;
   std::uint64_t packets() const { return packets_; }
   std::uint64_t jumps() const { return jumps_; }
-  const Latency& latency() const { return latency_; }
+  const Latency& latency() const { return latency_.latency(); }
 
   /// Returns what holds the budget: its cost model, and how its predictions come out.
   FrameHold& hold() { return budget_.hold; }
@@ -160,7 +150,7 @@ class Session {
 
  private:
   void decideNext(FrameInput input, double kernelTime);
-  void wait(double kernelTime);
+  void decideWith(DecisionMemory& memory);
   void arrive(const AircraftState& state, double kernelTime);
   bool decidesImages() const;
   void decideImage(double now);
@@ -219,16 +209,13 @@ class Session {
   HostClockOffset hostClock_;
   double lastArrival_ = 0, lastJump_ = 0;
   std::uint64_t packets_ = 0, jumps_ = 0;
-  Latency latency_;
+  LatencyMeter latency_;
 
   std::shared_ptr<const HostSymbols> hostSymbols_;  ///< of the live link; null for any other source
   std::vector<std::uint16_t> drawnDark_;            ///< its dark symbols in the last image requested
 
   bool dirty_ = false;
   std::optional<AircraftState> drawnEye_;
-  std::vector<double> waiting_,
-      inPicture_;  ///< kernel times of packets that no image, or the requested one, shows
-  double requestedAt_ = 0;
   bool keepRows_ = false;
   std::vector<TraceRow> rows_;
   std::size_t completeRows_ = 0, requestedRows_ = 0;
