@@ -55,6 +55,8 @@ void Session::setParameters(const ValidatedParameters& parameters) {
   decided_.highestGround = highestGround();
   trackSignals(decided_);
   DecisionMemory copy = looking_ ? lookMemory_ : memory_;
+  // From where its state was decided: no time passes in an edit, and a head would seem to stand still.
+  copy.motion = motionBefore_;
   decision_ = decide(decided_, parameters_, copy);
 }
 
@@ -216,6 +218,7 @@ void Session::decideWith(DecisionMemory& memory) {
   trackSignals(decided_);
   decision_ = decide(decided_, parameters_, memory);
   decideMs_ += millisecondsSince(start);
+  motionBefore_ = before.motion;
   blurPicturedAt_.reset();
   if (keepRows_ && !looking_) rows_.push_back({decided_, before, decision_, std::nullopt});
 }

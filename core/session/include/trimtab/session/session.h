@@ -83,8 +83,8 @@ class Session {
   /// Returns what the last decision was made from; before the first decision, the newest state. Call it only
   /// if `hasState`.
   const FrameInput& input() const { return decided_; }
-  /// Returns the decision for the last packet; after `setParameters`, the decision that an equal packet would
-  /// get now.
+  /// Returns the decision for the last packet; after `setParameters`, the decision that it would get now.
+  /// Head motion goes from the packet before it, because no time passes in an edit.
   const FrameDecision& decision() const { return decision_; }
   /// Returns the memory that the next packet will be decided with.
   const DecisionMemory& memory() const { return memory_; }
@@ -170,6 +170,7 @@ class Session {
   std::shared_ptr<const GroundHeights> ground_;
 
   DecisionMemory memory_, lookMemory_;
+  MotionMemory motionBefore_;          ///< before the last decision
   std::optional<FrameInput> current_;  ///< of the newest state
   FrameInput decided_;                 ///< of the last decision
   FrameDecision decision_;
