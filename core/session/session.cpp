@@ -355,6 +355,7 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
     request.symbology =
         SymbologyRequest{symbols(eye), symbologySetup(*parameters_), hostSymbols_, drawnDark_};
   latency_.requested(now);
+  requestedDecideMs_ += std::exchange(decideMs_, 0);
   requestedRows_ = rows_.size();
   dirty_ = false;
   drawnEye_ = std::move(eye);
@@ -390,10 +391,16 @@ double Session::aheadMs() const {
   return std::max((budget - workMs(lastCost_)) / 2, budget / 50);
 }
 
+FrameCost Session::costOf(const FrameResult& result) const {
+  FrameCost cost = result.cost;
+  cost.decide = requestedDecideMs_;
+  cost.total += requestedDecideMs_;
+  return cost;
+}
+
 FrameCost Session::finished(const FrameResult& result, double now) {
-  lastCost_ = result.cost;
-  lastCost_.decide = std::exchange(decideMs_, 0);
-  lastCost_.total = result.cost.total + lastCost_.decide;
+  lastCost_ = costOf(result);
+  requestedDecideMs_ = 0;
   lastVertices_ = result.visible.vertices;
   if (parameters_->hold.enabled) budget_.hold.finished(result, lastCost_);
   signals_.tracker.finished(lastCost_.total, parameters_->measure.budget.value(), result.visible.triangles);
@@ -413,7 +420,7 @@ FrameCost Session::finished(const FrameResult& result, double now) {
 void Session::noPicture() {
   if (decidesImages()) decideImage(lastArrival_);
   latency_.dropped();
-  decideMs_ = 0;
+  decideMs_ = requestedDecideMs_ = 0;
   completeRows_ = requestedRows_ = rows_.size();
 }
 

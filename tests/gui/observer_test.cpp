@@ -3,6 +3,7 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QStatusBar>
 #include <cmath>
 
@@ -30,6 +31,15 @@ class Observer : public Bench {
   void openFlight() {
     ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
     flight_ = *readFlight(sampleFlight());
+  }
+  bool drawsOn() {
+    const std::uint64_t before = paints();
+    return waitFor([&] { return paints() > before + 3; });
+  }
+  void playFlight() {
+    openFlight();
+    w().panels().flight->play();
+    ASSERT_TRUE(drawsOn());
   }
   void seek(double altitudeFt) { w().feed().seekHere(climbsThrough(flight_, altitudeFt)); }
   GeodeticPosition camera() { return w().viewport().camera().position(); }
@@ -200,6 +210,36 @@ TEST_F(Observer, theLegendAndTheDockNameAReasonAlike) {
     return;
   }
   FAIL() << "no list of reasons";
+}
+
+/// The number before " ms" in a text; empty if there is none.
+QString msIn(const QString& text) {
+  static const QRegularExpression kMs(QStringLiteral("([0-9.,–]+)(?: of [0-9.,]+)? ms"));
+  return kMs.match(text).captured(1);
+}
+
+TEST_F(Observer, theLineAtTheFootOfTheImageAndTheStatusBarHaveOneNumber) {
+  QLabel* status = nullptr;
+  for (QLabel* label : w().statusBar()->findChildren<QLabel*>())
+    if (label->accessibleName() == QLatin1String("Frame time and budget")) status = label;
+  ASSERT_NE(status, nullptr);
+  int images = 0;
+  double decideMs = 0;
+  const auto compare = [&] {
+    ++images;
+    decideMs = std::max(decideMs, w().controllers().frame->lastCost().decide);
+    const QString hud = msIn(w().viewport().overlayContents().hud);
+    ASSERT_FALSE(hud.isEmpty());
+    ASSERT_EQ(hud.toStdString(), msIn(status->text()).toStdString())
+        << w().viewport().overlayContents().hud.toStdString() << " / " << status->text().toStdString();
+  };
+  playFlight();
+  QObject ends;
+  QObject::connect(w().controllers().frame.get(), &workbench::FrameController::painted, &ends, compare);
+  ASSERT_TRUE(waitFor([&] { return images > 30; }));
+  EXPECT_GT(decideMs, 0) << "what an image's decisions take is in both";
+  trigger("Freeze culling");
+  ASSERT_TRUE(waitFor([&] { return images > 40; }));
 }
 
 TEST_F(Observer, frozenAnEditDecidesTheSameMomentAgain) {

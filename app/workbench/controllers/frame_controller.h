@@ -60,6 +60,7 @@ class FrameController : public QObject {
 
  private:
   std::optional<Picture> picture(int widthPx, int heightPx);
+  FrameCost costOf(const FrameResult& result) const;
   QString hud(const AircraftState& eye) const;
   void onPainted();
   void onDecision();

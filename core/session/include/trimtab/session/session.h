@@ -122,6 +122,9 @@ class Session {
   /// count as shown by it. The remaining time of a blur runs from the first image of its decision.
   std::optional<FrameRequest> request(double now, int windowWidthPx, int windowHeightPx,
                                       ViewFit fit = ViewFit::preset);
+  /// Returns what the image that was requested last costs, with `decide` filled in. `finished` returns the
+  /// same.
+  FrameCost costOf(const FrameResult& result) const;
   /// Call this when the requested image is finished. It completes trace rows, latencies and the cost that the
   /// next input holds, and returns that cost with `decide` filled in.
   FrameCost finished(const FrameResult& result, double now);
@@ -177,7 +180,7 @@ class Session {
   ImageRate imageRate_;
   std::optional<std::uint64_t> lastVertices_;  ///< of the last finished image
   FrameCost lastCost_;
-  double decideMs_ = 0;  ///< spent since the last image
+  double decideMs_ = 0, requestedDecideMs_ = 0;  ///< spent since the last request, and on the image requested
   std::uint64_t overBudget_ = 0;
   bool looking_ = false;
   bool replayed_ = false;
