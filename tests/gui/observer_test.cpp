@@ -8,12 +8,15 @@
 #include <cmath>
 
 #include "app/link/link.h"
+#include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "gui_support.h"
 #include "trimtab/host/flight.h"
 #include "views/controls/bar_list.h"
 #include "views/model/live.h"
+#include "views/panels/budget_strip.h"
 #include "views/panels/culling_panel.h"
+#include "views/panels/plots_panel.h"
 
 namespace trimtab::test {
 namespace {
@@ -240,6 +243,29 @@ TEST_F(Observer, theLineAtTheFootOfTheImageAndTheStatusBarHaveOneNumber) {
   EXPECT_GT(decideMs, 0) << "what an image's decisions take is in both";
   trigger("Freeze culling");
   ASSERT_TRUE(waitFor([&] { return images > 40; }));
+}
+
+TEST_F(Observer, frozenImagesCountInNoStatistic) {
+  playFlight();
+  auto& snapshots = w().panels().changes->snapshots();
+  snapshots.keep(0);
+  snapshots.switchTo(0);
+  ASSERT_TRUE(drawsOn());
+  trigger("Freeze culling");
+  const std::uint64_t frames = w().panels().plots->buffer().end();
+  const std::size_t images = w().strip().minute().images(), kept = snapshots.images(0);
+  ASSERT_GT(images, 0u);
+  ASSERT_TRUE(drawsOn());
+  ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "7").empty());
+  ASSERT_TRUE(drawsOn());
+  EXPECT_EQ(w().strip().minute().images(), images);
+  EXPECT_EQ(w().panels().plots->buffer().end(), frames);
+  EXPECT_EQ(snapshots.images(0), kept);
+  w().draft().undoStack().undo();
+  trigger("Freeze culling");
+  ASSERT_TRUE(drawsOn());
+  EXPECT_GT(w().strip().minute().images(), images);
+  EXPECT_GT(w().panels().plots->buffer().end(), frames);
 }
 
 TEST_F(Observer, frozenAnEditDecidesTheSameMomentAgain) {

@@ -207,6 +207,7 @@ views::LiveFrame FrameController::liveFrame() const {
   frame.input.signalValues = session().signalValues();
   frame.decision = session().decision();
   frame.cost = lastCost_;
+  frame.counts = counts();
   frame.fps = fps_;
   frame.result = at_.viewport.lastResult();
   if (frame.result) frame.levels = levels_;

@@ -170,6 +170,7 @@ void WeatherWizard::setRunning(bool running) {
   steps_->setEnabled(!running);
   frames_->setEnabled(!running);
   progress_->setVisible(running);
+  emit measuringChanged(running);
 }
 
 std::vector<WeatherStep> WeatherWizard::chosenSteps() const {

@@ -56,6 +56,9 @@ class WeatherWizard : public QDialog {
 
   void reject() override;
 
+ signals:
+  void measuringChanged(bool measuring);
+
  private:
   std::vector<WeatherStep> chosenSteps() const;
   std::optional<double> measure(const WeatherDecision& decision);
