@@ -5,12 +5,14 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QStatusBar>
+#include <QUdpSocket>
 #include <cmath>
 
 #include "app/link/link.h"
 #include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "gui_support.h"
+#include "trimtab/host/encoder.h"
 #include "trimtab/host/flight.h"
 #include "views/controls/bar_list.h"
 #include "views/model/live.h"
@@ -90,6 +92,42 @@ TEST_F(Observer, aHostThatNeverComesLeavesTheImageOfTheFreeCamera) {
   w().feed().closeHost();
   EXPECT_FALSE(statusSays("listening"));
   EXPECT_TRUE(statusSays("free camera"));
+}
+
+TEST_F(Observer, aHostWhoseDatagramsLeadToNothingIsToldWhyInTheHostDock) {
+  AircraftState state;
+  state.position = {Degrees{36.6}, Degrees{128.3}, Metres{1500}};
+  std::vector<std::byte> other = encodeCigiHost(state, 1, 0);
+  constexpr std::size_t kEntityControl = 24, kEntityLow = kEntityControl + 3;
+  ASSERT_EQ(std::to_integer<int>(other[kEntityControl]), 2);
+  other[kEntityLow] = std::byte{1};
+  const struct {
+    std::vector<std::byte> bytes;
+    const char* says;
+  } hosts[] = {{std::vector<std::byte>(72, std::byte{0x55}), "72 bytes of neither"}, {other, "entity"}};
+  w().dock("host")->show();
+  w().dock("host")->raise();
+  ASSERT_TRUE(comesToFront("host"));
+  const auto says = [&](const QString& row) {
+    for (const QLabel* label : w().dock("host")->findChildren<QLabel*>())
+      if (label->accessibleName() == row) return label->text();
+    return QString();
+  };
+  for (const auto& host : hosts) {
+    const std::uint16_t port = listen();
+    EXPECT_TRUE(waitFor([&] { return says("Link").contains("nothing yet"); }));
+    QUdpSocket socket;
+    for (int i = 0; i < 25; ++i)
+      socket.writeDatagram(reinterpret_cast<const char*>(host.bytes.data()), qint64(host.bytes.size()),
+                           QHostAddress::LocalHost, port);
+    EXPECT_TRUE(
+        waitFor([&] { return says("Link").contains("25") && says("Link").contains(host.says); }, 5000))
+        << says("Link").toStdString();
+    EXPECT_FALSE(says("Link").contains('\n')) << "one line";
+    if (const QString shots = qEnvironmentVariable("TRIMTAB_SHOTS"); !shots.isEmpty())
+      w().grab().save(shots + "/host-" + QString::number(host.bytes.size()) + ".png");
+    w().feed().closeHost();
+  }
 }
 
 TEST_F(Observer, frozenTheDecisionAndTheVisibleSetStayWhateverFlies) {
