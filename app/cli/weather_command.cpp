@@ -39,6 +39,11 @@ std::vector<WeatherStep> stepsOf(const std::vector<std::string>& names) {
   return steps;
 }
 
+std::string suffixOf(const StepCalibration& calibration) {
+  const std::string why = whyRejected(calibration);
+  return why.empty() ? why : "; rejected: " + why;
+}
+
 void print(const experiment::CalibratedWeather& calibrated, double othersShare) {
   std::printf("%.0f vertices in view in clear air\n", calibrated.vertices);
   std::printf("%-12s %9s %9s %12s %10s %8s %10s %8s  %s\n", "step", "clear ms", "uncut ms", "strongest ms",
@@ -46,8 +51,7 @@ void print(const experiment::CalibratedWeather& calibrated, double othersShare) 
   for (const StepCalibration& c : calibrated.steps)
     std::printf("%-12s %9.2f %9.2f %12.2f %10.2f %8.2f %10.3g %8.3g  %s%s\n", nameOf(c.step).c_str(),
                 c.clearMs, c.uncutMs, c.strongestMs, c.matchedMs, c.farM / 1000, c.nearFarRatio, c.density,
-                std::string(toText(c.outcome)).c_str(),
-                c.drifted ? "; clear air took another time afterwards: measure again" : "");
+                std::string(toText(c.outcome)).c_str(), suffixOf(c).c_str());
   if (const std::string busy = busyText(othersShare); !busy.empty()) std::printf("%s\n", busy.c_str());
 }
 
@@ -68,6 +72,7 @@ void printJson(const experiment::CalibratedWeather& calibrated, double othersSha
                      {"near_far_ratio", c.nearFarRatio},
                      {"density", c.density},
                      {"drifted", c.drifted},
+                     {"rejected", whyRejected(c)},
                      {"trials", trials}});
   }
   std::cout << nlohmann::ordered_json{{"vertices", calibrated.vertices},
@@ -99,9 +104,13 @@ int calibrate(const WeatherOptions& arguments) {
   if (arguments.output.empty()) return kDone;
 
   TuningParameters tuned = setup->parameters;
-  for (const StepCalibration& step : calibrated->steps)
-    if (step.outcome != CalibrationOutcome::not_a_number) apply(step, tuned);
-  return wrotePreset(*preset, tuned, arguments.output) ? kDone : kRefused;
+  const std::vector<RejectedStep> rejected = applyAccepted(calibrated->steps, tuned);
+  for (const RejectedStep& each : rejected)
+    report({{Severity::error, arguments.output, nameOf(each.step), "times that agree with each other",
+             each.why}});
+  if (rejected.size() < calibrated->steps.size() && !wrotePreset(*preset, tuned, arguments.output))
+    return kRefused;
+  return rejected.empty() ? kDone : kRefused;
 }
 
 }  // namespace
@@ -123,7 +132,9 @@ void addWeather(CLI::App& app, int& exitCode) {
       ->add_option("--vertices", arguments->vertices,
                    "Vertices in view, reached by the screen-space error; without it those of the preset")
       ->check(CLI::PositiveNumber);
-  command->add_option("-o,--output", arguments->output, "Preset file that receives far planes and densities");
+  command->add_option("-o,--output", arguments->output,
+                      "Preset file that receives far planes and densities, but none of a step whose times "
+                      "contradict each other; then the exit code is 1");
   command->add_flag("--json", arguments->json, "One JSON document on standard output");
   command->callback([arguments, &exitCode] { exitCode = calibrate(*arguments); });
 }

@@ -16,8 +16,6 @@
 namespace trimtab {
 namespace {
 
-/// Waiting kernel times are dropped beyond this, when nobody draws and nobody says so.
-constexpr std::size_t kMostWaiting = 8192;
 /// How long a jump is shown.
 constexpr double kJumpShownS = 1;
 
@@ -57,6 +55,8 @@ void Session::setParameters(const ValidatedParameters& parameters) {
   decided_.highestGround = highestGround();
   trackSignals(decided_);
   DecisionMemory copy = looking_ ? lookMemory_ : memory_;
+  // From where its state was decided: no time passes in an edit, and a head would seem to stand still.
+  copy.motion = motionBefore_;
   decision_ = decide(decided_, parameters_, copy);
 }
 
@@ -74,7 +74,7 @@ void Session::unlink() {
 
 void Session::receive(std::span<const ReceivedState> states) {
   for (const ReceivedState& received : states) {
-    latency_.decoded.add((received.decodedTime - received.kernelTime) * 1e3);
+    latency_.decoded(received.kernelTime, received.decodedTime);
     AircraftState state = received.state;
     head_.apply(state, received.kernelTime);
     follow(state, received.kernelTime);
@@ -115,10 +115,9 @@ void Session::look(const AircraftState& state) {
   // A camera that stands is looked at once more, and then no more.
   if (stands) seen.velocity = Velocity{};
   groundVelocity_.push(seen);
-  current_ = decided_ = inputFor(seen);
-  trackSignals(decided_);
-  decision_ = decide(decided_, parameters_, lookMemory_);
-  blurPicturedAt_.reset();
+  decided_ = inputFor(seen);
+  decideWith(lookMemory_);
+  current_ = decided_;
   dirty_ = true;
 }
 
@@ -202,26 +201,26 @@ void Session::follow(const AircraftState& state, double arrival) {
 void Session::decideNext(FrameInput input, double kernelTime) {
   const bool looking = std::exchange(looking_, false);
   ++packets_;
-  const DecisionMemory before = memory_;
-  const auto start = std::chrono::steady_clock::now();
   if (looking) signals_.tracker.restart();
-  trackSignals(input);
-  decision_ = decide(input, parameters_, memory_);
-  decideMs_ += millisecondsSince(start);
+  decided_ = std::move(input);
+  decideWith(memory_);
   if (looking) groundVelocity_.restart();
-  groundVelocity_.push(input.state);
-  current_ = decided_ = input;
-  blurPicturedAt_.reset();
+  groundVelocity_.push(decided_.state);
+  current_ = decided_;
   dirty_ = true;
-  wait(kernelTime);
-  if (keepRows_) rows_.push_back({input, before, decision_, std::nullopt});
+  latency_.arrived(kernelTime);
 }
 
-/// Remembers a packet that no image shows yet.
-void Session::wait(double kernelTime) {
-  if (!std::isfinite(kernelTime)) return;
-  if (waiting_.size() >= kMostWaiting) waiting_.erase(waiting_.begin(), waiting_.begin() + kMostWaiting / 2);
-  waiting_.push_back(kernelTime);
+/// Decides `decided_`, with a row of the trace unless it is a free camera's.
+void Session::decideWith(DecisionMemory& memory) {
+  const DecisionMemory before = memory;
+  const auto start = std::chrono::steady_clock::now();
+  trackSignals(decided_);
+  decision_ = decide(decided_, parameters_, memory);
+  decideMs_ += millisecondsSince(start);
+  motionBefore_ = before.motion;
+  blurPicturedAt_.reset();
+  if (keepRows_ && !looking_) rows_.push_back({decided_, before, decision_, std::nullopt});
 }
 
 /// Whether an image's own state is decided instead of each state that arrives.
@@ -238,7 +237,7 @@ void Session::arrive(const AircraftState& state, double kernelTime) {
   current_ = inputFor(state);
   if (first) decided_ = *current_;
   dirty_ = true;
-  wait(kernelTime);
+  latency_.arrived(kernelTime);
 }
 
 /// Decides what an image at `now` shows. Its time goes on even where the eye stands, so that an image of a
@@ -246,14 +245,8 @@ void Session::arrive(const AircraftState& state, double kernelTime) {
 void Session::decideImage(double now) {
   AircraftState eye = eyeState(now);
   eye.time = hostClock_.hostTime(now);
-  const DecisionMemory before = memory_;
-  const auto start = std::chrono::steady_clock::now();
   decided_ = inputFor(eye);
-  trackSignals(decided_);
-  decision_ = decide(decided_, parameters_, memory_);
-  decideMs_ += millisecondsSince(start);
-  blurPicturedAt_.reset();
-  if (keepRows_) rows_.push_back({decided_, before, decision_, std::nullopt});
+  decideWith(memory_);
 }
 
 LinkState Session::linkState(double now) const {
@@ -361,9 +354,8 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   if (parameters_->symbology.enabled)
     request.symbology =
         SymbologyRequest{symbols(eye), symbologySetup(*parameters_), hostSymbols_, drawnDark_};
-  inPicture_.insert(inPicture_.end(), waiting_.begin(), waiting_.end());
-  waiting_.clear();
-  requestedAt_ = now;
+  latency_.requested(now);
+  requestedDecideMs_ += std::exchange(decideMs_, 0);
   requestedRows_ = rows_.size();
   dirty_ = false;
   drawnEye_ = std::move(eye);
@@ -399,21 +391,21 @@ double Session::aheadMs() const {
   return std::max((budget - workMs(lastCost_)) / 2, budget / 50);
 }
 
+FrameCost Session::costOf(const FrameResult& result) const {
+  FrameCost cost = result.cost;
+  cost.decide = requestedDecideMs_;
+  cost.total += requestedDecideMs_;
+  return cost;
+}
+
 FrameCost Session::finished(const FrameResult& result, double now) {
-  lastCost_ = result.cost;
-  lastCost_.decide = decideMs_;
-  lastCost_.total = result.cost.total + decideMs_;
+  lastCost_ = costOf(result);
+  requestedDecideMs_ = 0;
   lastVertices_ = result.visible.vertices;
   if (parameters_->hold.enabled) budget_.hold.finished(result, lastCost_);
   signals_.tracker.finished(lastCost_.total, parameters_->measure.budget.value(), result.visible.triangles);
   overBudget_ += lastCost_.total > parameters_->measure.budget.value();
-  decideMs_ = 0;
-  if (!inPicture_.empty()) {
-    latency_.shown.add((now - inPicture_.back()) * 1e3);
-    latency_.frame.add((now - requestedAt_) * 1e3);
-  }
-  for (const double kernelTime : inPicture_) latency_.every.add((now - kernelTime) * 1e3);
-  inPicture_.clear();
+  latency_.finished(now);
   if (requestedRows_ > completeRows_) {
     const VisibleSet& visible = result.visible;
     rows_[requestedRows_ - 1].frame =
@@ -427,9 +419,8 @@ FrameCost Session::finished(const FrameResult& result, double now) {
 
 void Session::noPicture() {
   if (decidesImages()) decideImage(lastArrival_);
-  waiting_.clear();
-  inPicture_.clear();
-  decideMs_ = 0;
+  latency_.dropped();
+  decideMs_ = requestedDecideMs_ = 0;
   completeRows_ = requestedRows_ = rows_.size();
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <utility>
 
 namespace trimtab {
 namespace {
@@ -135,6 +137,13 @@ bool Search::thinOut() {
 }
 
 bool Search::isMonotone() const {
+  // A far plane at the terrain's end removes nothing, so it takes as long as none, which was too long.
+  const auto slowCut = [this](const CalibrationTrial& t) {
+    return std::isfinite(t.farM) && t.ms > result_.clearMs;
+  };
+  if (result_.outcome == CalibrationOutcome::not_settled &&
+      std::none_of(result_.trials.begin(), result_.trials.end(), slowCut))
+    return false;
   std::vector<CalibrationTrial> sorted = result_.trials;
   std::stable_sort(sorted.begin(), sorted.end(), [](const CalibrationTrial& a, const CalibrationTrial& b) {
     return a.density != b.density ? a.density < b.density : a.farM < b.farM;
@@ -215,6 +224,16 @@ std::optional<StepCalibration> calibrateStep(WeatherStep step, const TuningParam
   return Search(step, parameters, measure, settings).run();
 }
 
+std::string whyRejected(const StepCalibration& c) {
+  if (c.outcome == CalibrationOutcome::not_a_number) return std::string(toText(c.outcome));
+  if (!c.drifted) return c.notMonotone ? "the times contradict each other: measure more frames" : "";
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "the machine was busy, measure again: clear air took %.2f ms before and %.2f ms after",
+                c.clearMs, c.clearAfterMs);
+  return text;
+}
+
 void apply(const StepCalibration& calibration, TuningParameters& parameters) {
   WeatherStepParameters* step = stepParameters(parameters, calibration.step);
   if (step == nullptr || calibration.outcome == CalibrationOutcome::not_a_number) return;
@@ -224,6 +243,17 @@ void apply(const StepCalibration& calibration, TuningParameters& parameters) {
   if (calibration.outcome == CalibrationOutcome::cut_not_enough ||
       calibration.outcome == CalibrationOutcome::fog_not_enough)
     step->density = Ratio{std::clamp(roundedDown(calibration.density), 0.0, 1.0)};
+}
+
+std::vector<RejectedStep> applyAccepted(std::span<const StepCalibration> results,
+                                        TuningParameters& parameters) {
+  std::vector<RejectedStep> rejected;
+  for (const StepCalibration& result : results)
+    if (std::string why = whyRejected(result); why.empty())
+      apply(result, parameters);
+    else
+      rejected.push_back({result.step, std::move(why)});
+  return rejected;
 }
 
 }  // namespace trimtab

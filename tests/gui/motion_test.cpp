@@ -9,11 +9,14 @@
 #include <QTableWidget>
 #include <cmath>
 #include <cstdlib>
+#include <map>
+#include <vector>
 
 #include "app/link/link.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
+#include "trimtab/host/head_log.h"
 #include "trimtab/motion/head_motion.h"
 #include "views/controls/bar_list.h"
 #include "views/panels/budget_panel.h"
@@ -64,6 +67,33 @@ TEST_F(Motion, aSweepUnderTheFreeCameraFillsStacksLowersAndRaises) {
   emit panel().sourceBox().activated(MotionPanel::none);
   EXPECT_FALSE(session().input().state.head);
   EXPECT_TRUE(settle()) << "at rest nothing is painted";
+}
+
+TEST_F(Motion, anEditLeavesTheRateOfTheHeadInEveryFrame) {
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  w().feed().useHeadLog(*parseSweep("sweep:120/1s/0.2"));
+  w().panels().flight->play();
+  std::map<double, std::vector<double>> rates;  // of the frames that a state is shown in, by its time
+  std::size_t fast = 0;
+  QObject ends;
+  QObject::connect(w().controllers().frame.get(), &workbench::FrameController::frameShown, &ends,
+                   [&](const views::LiveFrame& frame) {
+                     rates[frame.input.state.time].push_back(frame.decision.motion.rateDegPerS);
+                     fast += frame.decision.motion.rateDegPerS > 100;
+                   });
+  // As a slider does it: many values, each for some packets.
+  const views::MergeToken drag = w().draft().newToken();
+  int edits = 0;
+  EXPECT_TRUE(waitFor([&] {
+    w().draft().setValue("lod.screen_space_error_px", 1 + 0.1 * (++edits % 20), drag);
+    return edits > 200 && fast > 100;
+  }));
+  std::size_t shownTwice = 0;
+  for (const auto& [time, all] : rates) {
+    shownTwice += all.size() > 1;
+    for (const double rate : all) ASSERT_EQ(rate, all.front()) << "at " << time << " s";
+  }
+  EXPECT_GT(shownTwice, 10u) << "or no frame was shown after an edit";
 }
 
 TEST_F(Motion, aSweepIsRecordedAndFlownAgainWithItsLineOfSight) {

@@ -3,16 +3,22 @@
 #include <QDockWidget>
 #include <QLabel>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QStatusBar>
+#include <QUdpSocket>
 #include <cmath>
 
 #include "app/link/link.h"
+#include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "gui_support.h"
+#include "trimtab/host/encoder.h"
 #include "trimtab/host/flight.h"
 #include "views/controls/bar_list.h"
 #include "views/model/live.h"
+#include "views/panels/budget_strip.h"
 #include "views/panels/culling_panel.h"
+#include "views/panels/plots_panel.h"
 
 namespace trimtab::test {
 namespace {
@@ -30,6 +36,15 @@ class Observer : public Bench {
   void openFlight() {
     ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
     flight_ = *readFlight(sampleFlight());
+  }
+  bool drawsOn() {
+    const std::uint64_t before = paints();
+    return waitFor([&] { return paints() > before + 3; });
+  }
+  void playFlight() {
+    openFlight();
+    w().panels().flight->play();
+    ASSERT_TRUE(drawsOn());
   }
   void seek(double altitudeFt) { w().feed().seekHere(climbsThrough(flight_, altitudeFt)); }
   GeodeticPosition camera() { return w().viewport().camera().position(); }
@@ -77,6 +92,42 @@ TEST_F(Observer, aHostThatNeverComesLeavesTheImageOfTheFreeCamera) {
   w().feed().closeHost();
   EXPECT_FALSE(statusSays("listening"));
   EXPECT_TRUE(statusSays("free camera"));
+}
+
+TEST_F(Observer, aHostWhoseDatagramsLeadToNothingIsToldWhyInTheHostDock) {
+  AircraftState state;
+  state.position = {Degrees{36.6}, Degrees{128.3}, Metres{1500}};
+  std::vector<std::byte> other = encodeCigiHost(state, 1, 0);
+  constexpr std::size_t kEntityControl = 24, kEntityLow = kEntityControl + 3;
+  ASSERT_EQ(std::to_integer<int>(other[kEntityControl]), 2);
+  other[kEntityLow] = std::byte{1};
+  const struct {
+    std::vector<std::byte> bytes;
+    const char* says;
+  } hosts[] = {{std::vector<std::byte>(72, std::byte{0x55}), "72 bytes of neither"}, {other, "entity"}};
+  w().dock("host")->show();
+  w().dock("host")->raise();
+  ASSERT_TRUE(comesToFront("host"));
+  const auto says = [&](const QString& row) {
+    for (const QLabel* label : w().dock("host")->findChildren<QLabel*>())
+      if (label->accessibleName() == row) return label->text();
+    return QString();
+  };
+  for (const auto& host : hosts) {
+    const std::uint16_t port = listen();
+    EXPECT_TRUE(waitFor([&] { return says("Link").contains("nothing yet"); }));
+    QUdpSocket socket;
+    for (int i = 0; i < 25; ++i)
+      socket.writeDatagram(reinterpret_cast<const char*>(host.bytes.data()), qint64(host.bytes.size()),
+                           QHostAddress::LocalHost, port);
+    EXPECT_TRUE(
+        waitFor([&] { return says("Link").contains("25") && says("Link").contains(host.says); }, 5000))
+        << says("Link").toStdString();
+    EXPECT_FALSE(says("Link").contains('\n')) << "one line";
+    if (const QString shots = qEnvironmentVariable("TRIMTAB_SHOTS"); !shots.isEmpty())
+      w().grab().save(shots + "/host-" + QString::number(host.bytes.size()) + ".png");
+    w().feed().closeHost();
+  }
 }
 
 TEST_F(Observer, frozenTheDecisionAndTheVisibleSetStayWhateverFlies) {
@@ -200,6 +251,59 @@ TEST_F(Observer, theLegendAndTheDockNameAReasonAlike) {
     return;
   }
   FAIL() << "no list of reasons";
+}
+
+/// The number before " ms" in a text; empty if there is none.
+QString msIn(const QString& text) {
+  static const QRegularExpression kMs(QStringLiteral("([0-9.,–]+)(?: of [0-9.,]+)? ms"));
+  return kMs.match(text).captured(1);
+}
+
+TEST_F(Observer, theLineAtTheFootOfTheImageAndTheStatusBarHaveOneNumber) {
+  QLabel* status = nullptr;
+  for (QLabel* label : w().statusBar()->findChildren<QLabel*>())
+    if (label->accessibleName() == QLatin1String("Frame time and budget")) status = label;
+  ASSERT_NE(status, nullptr);
+  int images = 0;
+  double decideMs = 0;
+  const auto compare = [&] {
+    ++images;
+    decideMs = std::max(decideMs, w().controllers().frame->lastCost().decide);
+    const QString hud = msIn(w().viewport().overlayContents().hud);
+    ASSERT_FALSE(hud.isEmpty());
+    ASSERT_EQ(hud.toStdString(), msIn(status->text()).toStdString())
+        << w().viewport().overlayContents().hud.toStdString() << " / " << status->text().toStdString();
+  };
+  playFlight();
+  QObject ends;
+  QObject::connect(w().controllers().frame.get(), &workbench::FrameController::painted, &ends, compare);
+  ASSERT_TRUE(waitFor([&] { return images > 30; }));
+  EXPECT_GT(decideMs, 0) << "what an image's decisions take is in both";
+  trigger("Freeze culling");
+  ASSERT_TRUE(waitFor([&] { return images > 40; }));
+}
+
+TEST_F(Observer, frozenImagesCountInNoStatistic) {
+  playFlight();
+  auto& snapshots = w().panels().changes->snapshots();
+  snapshots.keep(0);
+  snapshots.switchTo(0);
+  ASSERT_TRUE(drawsOn());
+  trigger("Freeze culling");
+  const std::uint64_t frames = w().panels().plots->buffer().end();
+  const std::size_t images = w().strip().minute().images(), kept = snapshots.images(0);
+  ASSERT_GT(images, 0u);
+  ASSERT_TRUE(drawsOn());
+  ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "7").empty());
+  ASSERT_TRUE(drawsOn());
+  EXPECT_EQ(w().strip().minute().images(), images);
+  EXPECT_EQ(w().panels().plots->buffer().end(), frames);
+  EXPECT_EQ(snapshots.images(0), kept);
+  w().draft().undoStack().undo();
+  trigger("Freeze culling");
+  ASSERT_TRUE(drawsOn());
+  EXPECT_GT(w().strip().minute().images(), images);
+  EXPECT_GT(w().panels().plots->buffer().end(), frames);
 }
 
 TEST_F(Observer, frozenAnEditDecidesTheSameMomentAgain) {

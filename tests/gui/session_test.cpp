@@ -2,6 +2,7 @@
 #include <QCommandLinkButton>
 #include <QFile>
 #include <QFileInfo>
+#include <QStandardPaths>
 
 #include "app/workbench/controllers/file_kind.h"
 #include "app/workbench/controllers/saved_session.h"
@@ -12,10 +13,12 @@
 #include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
 #include "trimtab/policy/policy_file.h"
+#include "trimtab/preset/preset.h"
 
 namespace trimtab::test {
 namespace {
 
+using workbench::Document;
 using workbench::FileKind;
 using workbench::fileKindOf;
 using workbench::SavedSession;
@@ -40,6 +43,7 @@ TEST(SavedSessionFile, comesBackAndMovesWithItsFolder) {
   const auto values = QString::fromStdString(
       R"({"format":"trimtab-preset","name":"C","parameters":{"lod.scale":3},"version":3})");
   session.snapshots = {{{2, "far", values}}};
+  session.draft = values;
   const QString file = pathIn(dir, "here/day.session.json");
   ASSERT_TRUE(workbench::writeSession(file, session));
   const auto back = workbench::readSession(file);
@@ -77,6 +81,10 @@ TEST(SavedSessionFile, namesWhatIsWrong) {
       {R"({"trimtab_session": 1, "views": 3})", "views: expected a list"},
       {R"({"trimtab_session": 1, "snapshots": [{"slot": "D", "preset": {}}]})", "snapshots[0].slot"},
       {R"({"trimtab_session": 1, "snapshots": [{"slot": "A", "preset": 1}]})", "snapshots[0].preset"},
+      {R"({"trimtab_session": 1, "draft": "x"})", "draft: expected an object"},
+      {R"({"trimtab_session": 1, "draft": {"format": "trimtab-preset", "version": 3, "name": "",
+           "parameters": {"lod.screen_space_error_px": -1}}})",
+       "draft"},
       {R"({"trimtab_session": 1, "snapshots": [{"slot": "A", "preset": {"format": "trimtab-preset",
            "version": 3, "name": "", "parameters": {"lod.screen_space_error_px": -1}}}]})",
        "lod.screen_space_error_px"},
@@ -151,6 +159,84 @@ TEST_F(WorkbenchSession, aFileOpensAllOfItAgain) {
   EXPECT_EQ(sessions().views()[0].name, "ridge");
   EXPECT_EQ(camera.position(), ridge);
   EXPECT_EQ(camera.attitude().heading.value(), 123);
+}
+
+TEST_F(WorkbenchSession, holdsTheUnsavedEditsOfAPresetsFileAndLeavesTheFileAlone) {
+  Document& document = w().controllers().document->document();
+  const QString preset = pathIn(dir, "mine.json"), file = pathIn(dir, "day.session.json");
+  ASSERT_TRUE(w().controllers().document->saveTo(preset));
+  const std::string bytes = readFile(dir / "mine.json");
+  ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "7").empty());
+  ASSERT_TRUE(w().draft().setText("weather.step", "rain_heavy").empty());
+  const TuningParameters edited = w().draft().parameters();
+  ASSERT_TRUE(sessions().saveTo(file)) << w().messages().text().toStdString();
+  EXPECT_TRUE(w().draft().isDirty()) << "the preset itself is not saved";
+
+  w().draft().undoStack().setClean();
+  ASSERT_TRUE(w().controllers().document->open("default"));
+  ASSERT_TRUE(sessions().open(file)) << w().messages().text().toStdString();
+  EXPECT_EQ(document.file(), preset);
+  EXPECT_TRUE(differences(w().draft().parameters(), edited).empty());
+  EXPECT_TRUE(w().isWindowModified()) << "changed against its file";
+  EXPECT_TRUE(w().draft().isChanged("lod.screen_space_error_px"));
+  EXPECT_EQ(readFile(dir / "mine.json"), bytes);
+  document.keepCopyNow();
+  EXPECT_TRUE(QFile::exists(QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) +
+                            QStringLiteral("/recovery/%1.json").arg(QCoreApplication::applicationPid())))
+      << "a crash does not lose them either";
+  w().draft().undoStack().undo();
+  EXPECT_FALSE(w().draft().isDirty()) << "one step leads back to the file";
+  EXPECT_NE(w().draft().parameters().lod.screenSpaceError.value(), 7);
+
+  // Without edits there is nothing to hold.
+  ASSERT_TRUE(sessions().saveTo(file));
+  EXPECT_FALSE(workbench::readSession(file)->draft);
+}
+
+TEST_F(WorkbenchSession, holdsAPresetThatHasNoFileYet) {
+  const QString file = pathIn(dir, "day.session.json");
+  w().controllers().document->startFrom("low-level");
+  const TuningParameters begun = w().draft().parameters();
+  ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "7").empty());
+  ASSERT_TRUE(sessions().saveTo(file));
+  w().draft().undoStack().setClean();
+  ASSERT_TRUE(w().controllers().document->open("default"));
+  ASSERT_TRUE(sessions().open(file));
+  EXPECT_EQ(w().controllers().document->document().title(), "untitled");
+  EXPECT_EQ(w().draft().preset().base, "low-level");
+  EXPECT_EQ(w().draft().parameters().lod.screenSpaceError.value(), 7);
+  EXPECT_TRUE(w().draft().isDirty());
+  w().draft().undoStack().undo();
+  EXPECT_TRUE(differences(w().draft().parameters(), begun).empty());
+
+  // Without edits too: no file says what it began as.
+  ASSERT_TRUE(sessions().saveTo(file));
+  ASSERT_TRUE(w().controllers().document->open("default"));
+  ASSERT_TRUE(sessions().open(file));
+  EXPECT_TRUE(differences(w().draft().parameters(), begun).empty());
+  EXPECT_FALSE(w().draft().isDirty());
+}
+
+TEST_F(WorkbenchSession, holdsTheEditsOfAPresetWhoseFileIsGone) {
+  const QString preset = pathIn(dir, "mine.json"), file = pathIn(dir, "day.session.json");
+  ASSERT_TRUE(w().controllers().document->saveTo(preset));
+  ASSERT_TRUE(w().draft().setText("lod.screen_space_error_px", "7").empty());
+  ASSERT_TRUE(sessions().saveTo(file));
+  w().draft().undoStack().setClean();
+  ASSERT_TRUE(w().controllers().document->open("as-published"));
+  std::filesystem::remove(dir / "mine.json");
+  ASSERT_TRUE(sessions().open(file));
+  EXPECT_EQ(w().draft().parameters().lod.screenSpaceError.value(), 7);
+  EXPECT_TRUE(w().draft().isDirty());
+  EXPECT_TRUE(w().messages().text().contains("mine.json")) << "which is missing";
+}
+
+TEST_F(WorkbenchSession, ofAnEarlierVersionOpensItsPresetAsItIs) {
+  writeFile(dir / "old.session.json", R"({"trimtab_session": 1, "preset": "as-published", "terrain": ")" +
+                                          sampleTerrain().string() + R"("})");
+  ASSERT_TRUE(sessions().open(pathIn(dir, "old.session.json"))) << w().messages().text().toStdString();
+  EXPECT_EQ(w().controllers().document->document().title(), "as-published");
+  EXPECT_FALSE(w().draft().isDirty());
 }
 
 TEST_F(WorkbenchSession, keepsTheLastOneForTheNextStart) {

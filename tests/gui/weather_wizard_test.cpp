@@ -2,6 +2,7 @@
 #include "app/workbench/dialogs/weather_wizard.h"
 
 #include <QDockWidget>
+#include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
 #include <QSpinBox>
@@ -65,6 +66,55 @@ TEST(WeatherWizardTest, saysWhenNoCutIsEnough) {
   wizard.write();
   EXPECT_LT(draft.parameters().snowHeavy.density.value(), 0.28);
   EXPECT_GT(draft.parameters().snowHeavy.density.value(), 0.2);
+}
+
+QPushButton* writeButton(WeatherWizard& wizard) {
+  for (auto* button : wizard.findChildren<QPushButton*>())
+    if (button->text() == QLatin1String("&Write to the preset")) return button;
+  return nullptr;
+}
+
+QString rejectedText(WeatherWizard& wizard) {
+  for (const QLabel* label : wizard.findChildren<QLabel*>())
+    if (label->accessibleName() == QLatin1String("What is not written, and why"))
+      return label->isVisibleTo(&wizard) ? label->text() : QString();
+  return {};
+}
+
+/// Another program takes half of the machine from a step on.
+TEST(WeatherWizardTest, whatIsRejectedIsNotOfferedAndSaysWhyInThePlaceOfTheButton) {
+  for (const Precipitation from : {Precipitation::rain, Precipitation::snow}) {
+    views::Draft draft;
+    double busier = 1;
+    WeatherStage stage = paper(4);
+    const auto idle = stage.draw;
+    bool fell = false;
+    stage.draw = [&, idle](const WeatherDecision& d) {
+      auto frame = idle(d);
+      fell = fell || d.precipitation == from;
+      // Each time that clear air is measured after it began.
+      if (fell && !d.fogged) busier += 0.5;
+      frame->ms *= busier;
+      return frame;
+    };
+    WeatherWizard wizard(draft, stage);
+    wizard.start();
+    ASSERT_EQ(wizard.results().size(), 6u);
+    ASSERT_NE(writeButton(wizard), nullptr);
+    const bool some = from == Precipitation::snow;
+    EXPECT_EQ(writeButton(wizard)->isVisibleTo(&wizard), some);
+    EXPECT_TRUE(
+        rejectedText(wizard).startsWith(some ? "Not written with the others:" : "Nothing can be written:"))
+        << rejectedText(wizard).toStdString();
+    EXPECT_TRUE(rejectedText(wizard).contains("Heavy snow: the machine was busy"))
+        << rejectedText(wizard).toStdString();
+    wizard.write();
+    EXPECT_EQ(draft.undoStack().count(), some ? 1 : 0);
+    EXPECT_EQ(draft.parameters().snowHeavy.farStretch.value(), 1);
+    EXPECT_EQ(draft.parameters().rainHeavy.farStretch.value() > 1, some);
+    if (const QString shots = qEnvironmentVariable("TRIMTAB_SHOTS"); !shots.isEmpty())
+      wizard.grab().save(shots + (some ? "/weather-some-rejected.png" : "/weather-all-rejected.png"));
+  }
 }
 
 TEST(WeatherWizardTest, measuresTheStepsThatAreChosen) {

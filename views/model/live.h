@@ -45,6 +45,8 @@ struct LiveFrame {
   double flip =
       std::numeric_limits<double>::quiet_NaN();  ///< of the last image whose error was measured live
   bool newImage = false;                         ///< `result` is new
+  bool counts =
+      true;  ///< false: of a frozen or a paused view, which is shown but is in no plot and no statistic
 
   /// Returns `*result`, or a result in which nothing was drawn if there is none yet.
   const FrameResult& drawn() const {

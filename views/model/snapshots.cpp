@@ -96,7 +96,7 @@ int Snapshots::differingFromFile(int slot) const {
 }
 
 void Snapshots::showFrame(const LiveFrame& frame) {
-  if (active_ < 0 || !frame.newImage || !std::isfinite(frame.cost.total)) return;
+  if (active_ < 0 || !frame.newImage || !frame.counts || !std::isfinite(frame.cost.total)) return;
   at(active_).frameMs.add(frame.cost.total);
   ++at(active_).images;
   emit measured();

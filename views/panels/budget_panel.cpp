@@ -250,11 +250,12 @@ void BudgetPanel::showFrame(const LiveFrame& frame) {
   if (!frame.newImage) return;
   shown_ = frame.hold;
   gains_ = frame.holdGains;
+  throttle_.request();
+  if (!frame.counts) return;
   plot_->append(frame, draft_.active()->measure.budget.value());
   if (shown_.reason != HoldReason::off && frame.holdOutcome) count(*frame.holdOutcome);
   addToRun(frame);
   note(frame);
-  throttle_.request();
 }
 
 void BudgetPanel::count(const HoldOutcome& o) {

@@ -36,7 +36,7 @@ QSize BudgetStrip::minimumSizeHint() const {
 }
 
 void BudgetStrip::showFrame(const LiveFrame& frame, double imageMpx) {
-  if (!frame.newImage) return;
+  if (!frame.newImage || !frame.counts) return;
   load_ = {double(frame.drawn().visible.triangles), imageMpx, imageMpx, frame.decision.weather.density,
            frame.decision.motion.blur.strength > 0};
   minute_.add(frame.time, frame.cost, load_);

@@ -115,7 +115,7 @@ void MotionPanel::showWidgetsOf(Source source) {
 
 void MotionPanel::showFrame(const LiveFrame& frame) {
   any_ = true;
-  plot_->append(frame);
+  if (frame.counts) plot_->append(frame);
   if (frame.decision.motion != motion_) {
     motion_ = frame.decision.motion;
     if (changesState(motion_.reason)) reasons_->add(frame.time, explain(motion_));

@@ -275,6 +275,7 @@ QString PlotsPanel::trackedText() const {
 }
 
 void PlotsPanel::showFrame(const LiveFrame& frame) {
+  if (!frame.counts) return;
   buffer_.append(frame);
   noteChange(frame);
   if (!isPaused()) throttle_.request();

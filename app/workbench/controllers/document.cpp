@@ -130,6 +130,24 @@ void Document::startFrom(const QString& shipped) {
   become({});
 }
 
+Result<Done> Document::openEdits(const QString& nameOrFile, const QString& text, const QString& where,
+                                 const QString& step) {
+  Result<Preset> parsed = parsePreset(text.toStdString(), where.toStdString());
+  if (!parsed) return parsed.findings();
+  Findings findings = parsed.findings();
+  Result<Done> opened = nameOrFile.isEmpty() ? Result<Done>(Findings{}) : open(nameOrFile);
+  findings.insert(findings.end(), opened.findings().begin(), opened.findings().end());
+  if (!opened) startFrom(QString::fromStdString(parsed->base.empty() ? "default" : parsed->base));
+  draft_.takeParameters(parsed->parameters, step);
+  return {Done{}, std::move(findings)};
+}
+
+Result<std::string> Document::editsText() const {
+  Preset edits = draft_.preset();
+  if (!isShipped(edits.base)) edits.base.clear();
+  return presetText(edits);
+}
+
 Result<Done> Document::save(const QString& file) {
   const QString absolute = QFileInfo(file).absoluteFilePath();
   Preset saved = movedTo(draft_.preset(), QFileInfo(absolute).absolutePath());
@@ -209,16 +227,11 @@ std::vector<Document::Recovered> Document::abandoned() {
 
 Result<Done> Document::recover(const Recovered& recovered) {
   const QString where = recovered.file.isEmpty() ? recovered.copy : recovered.file;
-  Result<Preset> parsed = parsePreset(recovered.text.toStdString(), where.toStdString());
-  if (!parsed) return parsed.findings();
-  // The file as it is on disk first, so that the recovered edits are one step that can be undone.
-  const bool hasFile = !recovered.file.isEmpty() && QFileInfo::exists(recovered.file);
-  if (!hasFile || !open(recovered.file))
-    startFrom(QString::fromStdString(parsed->base.empty() ? "default" : parsed->base));
-  draft_.takeParameters(parsed->parameters, tr("Recover unsaved edits"));
+  Result<Done> back = openEdits(recovered.file, recovered.text, where, tr("Recover unsaved edits"));
+  if (!back) return back;
   keepCopyNow();
   discard(recovered);
-  return {Done{}, parsed.findings()};
+  return back;
 }
 
 void Document::discard(const Recovered& recovered) {

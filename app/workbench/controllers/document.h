@@ -34,6 +34,15 @@ class Document : public QObject {
   /// broken rules, which the draft shows.
   Result<Done> open(const QString& nameOrFile);
   void startFrom(const QString& shipped);
+  /// Opens what edits were made on, a file or a shipped preset, and makes them one step that can be undone,
+  /// so that they count as changed against it. `text` is the edited preset, as presetText() writes it;
+  /// findings call it `where`. If nothing can be opened, the edits begin a new preset on the one that the
+  /// text names.
+  Result<Done> openEdits(const QString& nameOrFile, const QString& text, const QString& where,
+                         const QString& step);
+  /// Returns the preset as `openEdits` takes it: all that differs from the shipped preset that it began as,
+  /// or from the defaults, so that it does not depend on a file of its own.
+  Result<std::string> editsText() const;
   Result<Done> save(const QString& file);
   Result<Done> reload() { return open(file_); }
 

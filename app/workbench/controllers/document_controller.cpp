@@ -42,12 +42,20 @@ DocumentController::DocumentController(const Workplace& workplace, NoticeBar& no
 }
 
 bool DocumentController::open(const QString& nameOrFile) {
-  const Result<Done> opened = document_.open(nameOrFile);
+  return sayOpened(nameOrFile, document_.open(nameOrFile));
+}
+
+bool DocumentController::openEdits(const QString& nameOrFile, const QString& text, const QString& session) {
+  return sayOpened(nameOrFile.isEmpty() ? session : nameOrFile,
+                   document_.openEdits(nameOrFile, text, session, tr("Unsaved edits of the session")));
+}
+
+bool DocumentController::sayOpened(const QString& name, const Result<Done>& opened) {
   if (!opened) {
-    at_.messages.add(tr("The preset cannot be opened: %1").arg(nameOrFile), opened.findings());
+    at_.messages.add(tr("The preset cannot be opened: %1").arg(name), opened.findings());
     return false;
   }
-  if (!opened.findings().empty()) at_.messages.add(tr("Opened %1").arg(nameOrFile), opened.findings());
+  if (!opened.findings().empty()) at_.messages.add(tr("Opened %1").arg(name), opened.findings());
   if (!document_.file().isEmpty()) rememberRecent(QStringLiteral("preset"), document_.file());
   return true;
 }

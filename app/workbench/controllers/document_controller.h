@@ -25,6 +25,8 @@ class DocumentController : public QObject {
 
   /// Opens a shipped preset by its name, or a file. Returns false if it cannot be read.
   bool open(const QString& nameOrFile);
+  /// Opens a preset with the edits that a session holds; see Document::openEdits. `session` is its file.
+  bool openEdits(const QString& nameOrFile, const QString& text, const QString& session);
   bool saveTo(const QString& file);
   /// Saves to the preset's own file; asks for one if it has none. Returns false if nothing was saved.
   bool save();
@@ -55,6 +57,7 @@ class DocumentController : public QObject {
   void exported(const QString& file);
 
  private:
+  bool sayOpened(const QString& name, const Result<Done>& opened);
   void onChangedOnDisk(bool gone);
   bool exportTo(const ExportTarget& target);
 

@@ -160,7 +160,7 @@ void ErrorsController::remember(const FrameRequest& before) {
 }
 
 void ErrorsController::onPainted() {
-  dock_->painted(by_.frame.clock(), by_.frame.lastCost().total);
+  if (by_.frame.counts()) dock_->painted(by_.frame.clock(), by_.frame.lastCost().total);
   split_->painted();
   followFlight();
 }

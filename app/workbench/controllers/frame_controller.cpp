@@ -155,8 +155,13 @@ std::optional<Picture> FrameController::picture(int widthPx, int heightPx) {
   return picture;
 }
 
+FrameCost FrameController::costOf(const FrameResult& result) const {
+  return observer_.frozen() ? result.cost : at_.feed.session().costOf(result);
+}
+
 QString FrameController::hud(const AircraftState& eye) const {
-  HudFacts facts{eye, at_.viewport.lastResult().get(), terrain_.database().get(), fps_, {}};
+  const FrameResult* const result = at_.viewport.lastResult().get();
+  HudFacts facts{eye, result, result ? costOf(*result).total : kNan, terrain_.database().get(), fps_, {}};
   if (at_.viewport.cameraEnabled()) facts.cameraSpeed = MetresPerSecond{at_.viewport.camera().speedMps()};
   return hudText(facts);
 }
@@ -176,7 +181,8 @@ void FrameController::onPainted() {
     if (const Findings found = recallCostModel(model, machineName(at_.viewport.gl().renderer));
         !found.empty())
       at_.messages.add(tr("The costs of an image are learned anew"), found);
-  lastCost_ = observer_.frozen() ? result->cost : at_.feed.session().finished(*result, link::now());
+  lastCost_ = costOf(*result);
+  if (!observer_.frozen()) at_.feed.session().finished(*result, link::now());
   if (const auto& why = model.whyAnew(); why && !std::exchange(saidAnew_, true))
     at_.messages.add(tr("The costs of an image are learned anew"), {*why});
   levels_ = levelsDrawn(*result, *terrain_.database());
@@ -203,6 +209,7 @@ views::LiveFrame FrameController::liveFrame() const {
   frame.input.signalValues = session().signalValues();
   frame.decision = session().decision();
   frame.cost = lastCost_;
+  frame.counts = counts();
   frame.fps = fps_;
   frame.result = at_.viewport.lastResult();
   if (frame.result) frame.levels = levels_;

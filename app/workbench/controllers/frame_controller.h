@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/workbench/viewport/viewport.h"
+#include "observer_controller.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/overlays.h"
 #include "views/model/live.h"
@@ -18,7 +19,6 @@ class Session;
 
 namespace trimtab::workbench {
 
-class ObserverController;
 class TerrainController;
 
 /// Asks the session for each image that the viewport draws, and shows every frame to the docks.
@@ -36,6 +36,8 @@ class FrameController : public QObject {
   const Session& session() const;
   /// What the last image cost.
   const FrameCost& lastCost() const { return lastCost_; }
+  /// See LiveFrame::counts.
+  bool counts() const { return !observer_.frozen() && !at_.viewport.paused(); }
   /// Seconds since the window was made: the clock of LiveFrame::time.
   double clock() const { return double(sinceStart_.nsecsElapsed()) * 1e-9; }
 
@@ -60,6 +62,7 @@ class FrameController : public QObject {
 
  private:
   std::optional<Picture> picture(int widthPx, int heightPx);
+  FrameCost costOf(const FrameResult& result) const;
   QString hud(const AircraftState& eye) const;
   void onPainted();
   void onDecision();

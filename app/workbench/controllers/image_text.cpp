@@ -8,6 +8,7 @@
 #include "trimtab/scene/overlay_colours.h"
 #include "trimtab/terrain/format/patch_terrain.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
+#include "views/model/theme.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -72,7 +73,7 @@ QString hudText(const HudFacts& facts) {
   parts << QObject::tr("pitch %1°").arg(eye.attitude.pitch.value(), 0, 'f', 1);
   if (facts.result != nullptr) {
     parts << QObject::tr("%L1 triangles").arg(facts.result->visible.triangles);
-    parts << QObject::tr("%1 ms").arg(facts.result->cost.total, 0, 'f', 1);
+    parts << QObject::tr("%1 ms").arg(views::numberText(facts.frameMs, 1));
   }
   if (facts.terrain != nullptr && !facts.terrain->heightAt(eye.position.latitude, eye.position.longitude))
     parts << QObject::tr("not over the terrain");

@@ -22,6 +22,7 @@ Legend legendOf(const FrameRequest& request, bool patches, const terrain::Databa
 struct HudFacts {
   AircraftState eye;
   const FrameResult* result = nullptr;         ///< of this image; null if there is none
+  double frameMs = 0;                          ///< what the image cost, milliseconds
   const terrain::Database* terrain = nullptr;  ///< null if none is open
   double fps = 0;                              ///< NaN: images are drawn on demand
   std::optional<MetresPerSecond> cameraSpeed;  ///< of the free camera, while it is what moves

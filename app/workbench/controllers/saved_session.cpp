@@ -61,15 +61,21 @@ class Reader {
     if (read.slot < 0 || read.slot >= views::Snapshots::kCount)
       refuse("slot", QStringLiteral("a letter from A to %1").arg(QChar('A' + views::Snapshots::kCount - 1)),
              letter);
-    const QJsonValue preset = object_.value(QLatin1String("preset"));
-    if (!preset.isObject()) refuse("preset", "an object", preset);
-    const QByteArray text = QJsonDocument(preset.toObject()).toJson(QJsonDocument::Compact);
-    read.preset = QString::fromUtf8(text);
-    const auto parsed =
-        parsePreset(read.preset.toStdString(), (file_ + ' ' + place_ + "preset").toStdString());
-    if (!parsed && preset.isObject())
-      findings_.insert(findings_.end(), parsed.findings().begin(), parsed.findings().end());
+    read.preset = preset("preset");
     return read;
+  }
+  /// Returns the text of a preset that is an object of its own.
+  QString preset(const char* key) {
+    const QJsonValue value = object_.value(QLatin1String(key));
+    if (!value.isObject()) {
+      refuse(key, "an object", value);
+      return {};
+    }
+    const QByteArray text = QJsonDocument(value.toObject()).toJson(QJsonDocument::Compact);
+    const auto parsed =
+        parsePreset(text.toStdString(), (file_ + ' ' + place_ + QLatin1String(key)).toStdString());
+    if (!parsed) findings_.insert(findings_.end(), parsed.findings().begin(), parsed.findings().end());
+    return QString::fromUtf8(text);
   }
   SavedView view() {
     return {text("name"),
@@ -92,9 +98,13 @@ class Reader {
   Findings& findings_;
 };
 
+QJsonObject presetObject(const QString& text) {
+  return QJsonDocument::fromJson(text.toUtf8()).object();
+}
+
 QJsonObject toJson(const SavedSnapshot& snapshot) {
   QJsonObject object{{"slot", QString(QChar('A' + snapshot.slot))},
-                     {"preset", QJsonDocument::fromJson(snapshot.preset.toUtf8()).object()}};
+                     {"preset", presetObject(snapshot.preset)}};
   if (!snapshot.name.isEmpty()) object["name"] = snapshot.name;
   return object;
 }
@@ -126,6 +136,7 @@ Result<Done> writeSession(const QString& file, const SavedSession& session) {
   QJsonObject object{{kVersionKey, kVersion}, {"workspace", session.workspace}};
   object["terrain"] = relativeTo(folder, session.terrain);
   object["preset"] = relativeTo(folder, session.preset);
+  if (session.draft) object["draft"] = presetObject(*session.draft);
   if (!session.flight.isEmpty()) {
     object["flight"] = relativeTo(folder, session.flight);
     object["flight_position_s"] = session.flightPositionS;
@@ -168,6 +179,7 @@ Result<SavedSession> readSession(const QString& file) {
   SavedSession session;
   session.terrain = absoluteIn(folder, in.text("terrain"));
   session.preset = absoluteIn(folder, in.text("preset"));
+  if (in.has("draft")) session.draft = in.preset("draft");
   session.flight = absoluteIn(folder, in.text("flight"));
   if (in.has("flight_position_s")) session.flightPositionS = in.number("flight_position_s", 0, kLongestS);
   if (in.has("listen_port"))

@@ -30,19 +30,25 @@ struct SavedSnapshot {
 };
 
 /// What was open in the workbench, so that one file opens all of it again. It names files and holds none of
-/// them; only snapshots, which are in no file, are in it with their values. It says on which port to listen
-/// but not on which interface: a file from somebody else must not open this machine to a network.
+/// them; only snapshots and unsaved edits, which are in no file, are in it with their values. It says on
+/// which port to listen but not on which interface: a file from somebody else must not open this machine to a
+/// network.
 struct SavedSession {
-  QString terrain;                          ///< a file or folder; empty: the sample terrain
-  QString preset;                           ///< a file, or the name of a shipped preset
-  QString flight;                           ///< a file; empty: none
-  double flightPositionS = 0;               ///< seconds from the flight's start
+  QString terrain;             ///< a file or folder; empty: the sample terrain
+  QString preset;              ///< a file, or the name of a shipped preset; empty: it has none yet
+  QString flight;              ///< a file; empty: none
+  double flightPositionS = 0;  ///< seconds from the flight's start
   std::optional<std::uint16_t> listenPort;  ///< set if a host was listened for
   QString workspace;                        ///< its name
   std::optional<SavedView> eye;             ///< where the free camera stood; its name is empty
   std::vector<SavedView> views;             ///< the views that were kept
   /// The snapshots that were kept; unset in files of earlier versions.
   std::optional<std::vector<SavedSnapshot>> snapshots;
+
+  /// The preset with its unsaved edits, as presetText() writes it; unset if there are none, and in files of
+  /// earlier versions. A preset that has no file yet is here alone, and names the shipped one that it began
+  /// as.
+  std::optional<QString> draft;
 
   friend bool operator==(const SavedSession&, const SavedSession&) = default;
 };
@@ -54,9 +60,8 @@ inline constexpr auto kSessionEnding = ".session.json";
 /// the folder can be moved.
 Result<Done> writeSession(const QString& file, const SavedSession& session);
 /// Reads a session; its files become absolute paths, whether they exist or not. An entry that is missing
-/// keeps its default, but a view must have all of its numbers. A snapshot may break rules between parameters,
-/// as a draft may. Refused are entries of another type and
-/// numbers outside their range.
+/// keeps its default, but a view must have all of its numbers. A snapshot and a draft may break rules between
+/// parameters. Refused are entries of another type and numbers outside their range.
 Result<SavedSession> readSession(const QString& file);
 
 }  // namespace trimtab::workbench

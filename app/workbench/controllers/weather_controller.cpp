@@ -5,6 +5,7 @@
 
 #include "app/workbench/dialogs/weather_wizard.h"
 #include "app/workbench/docks/message_panel.h"
+#include "app/workbench/jobs/view_pause.h"
 #include "app/workbench/viewport/viewport.h"
 #include "frame_controller.h"
 #include "terrain_controller.h"
@@ -53,6 +54,7 @@ void WeatherController::calibrate() {
     return WeatherStage::Frame{drawn->ms, drawn->tilesBuilt};
   };
   WeatherWizard wizard(at_.draft, std::move(stage), &at_.window);
+  at_.pause.follow(wizard, &WeatherWizard::measuringChanged, tr("the weather is calibrated"));
   wizard.exec();
   at_.viewport.invalidate();
 }

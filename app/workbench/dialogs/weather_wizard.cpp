@@ -65,12 +65,8 @@ QString outcomeText(const StepCalibration& c) {
   else if (c.outcome == CalibrationOutcome::fog_not_enough)
     said = WeatherWizard::tr("Costs more than any cut can win (%1 of %2 ms), even without particles")
                .arg(ms(c.strongestGainMs()), ms(c.lossMs()));
-  if (c.drifted)
-    said +=
-        WeatherWizard::tr("; clear air took %1 ms before and %2 ms after: the machine is busy, measure again")
-            .arg(ms(c.clearMs), ms(c.clearAfterMs));
-  else if (c.notMonotone)
-    said += WeatherWizard::tr("; the times disagree with each other: measure more frames");
+  if (const std::string why = whyRejected(c); !why.empty() && why != text)
+    said += WeatherWizard::tr("; rejected: %1").arg(QString::fromStdString(why));
   if (!said.isEmpty()) said[0] = said[0].toUpper();
   return said;
 }
@@ -85,6 +81,7 @@ WeatherWizard::WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* p
       frames_(new QSpinBox(this)),
       run_(new QPushButton(this)),
       write_(new QPushButton(tr("&Write to the preset"), this)),
+      rejected_(new QLabel(this)),
       close_(new QPushButton(tr("Close"), this)),
       progress_(new QProgressBar(this)),
       status_(new QLabel(this)),
@@ -127,6 +124,8 @@ WeatherWizard::WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* p
   table_->setColumnWidth(kOutcome, 240);
   plot_->setMinimumHeight(kPlotHeight);
   status_->setWordWrap(true);
+  rejected_->setWordWrap(true);
+  rejected_->setAccessibleName(tr("What is not written, and why"));
 
   auto* left = new QVBoxLayout;
   left->addWidget(steps_, 1);
@@ -143,6 +142,7 @@ WeatherWizard::WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* p
   middle->addWidget(tabs, 1);
   auto* foot = new QHBoxLayout;
   foot->addWidget(status_, 1);
+  foot->addWidget(rejected_, 1);
   foot->addWidget(write_);
   foot->addWidget(close_);
   auto* column = new QVBoxLayout(this);
@@ -166,10 +166,11 @@ WeatherWizard::WeatherWizard(views::Draft& draft, WeatherStage stage, QWidget* p
 void WeatherWizard::setRunning(bool running) {
   running_ = running;
   run_->setText(running ? tr("&Cancel") : tr("&Measure"));
-  write_->setEnabled(!running && !results_.empty());
+  showWhatIsRejected();
   steps_->setEnabled(!running);
   frames_->setEnabled(!running);
   progress_->setVisible(running);
+  emit measuringChanged(running);
 }
 
 std::vector<WeatherStep> WeatherWizard::chosenSteps() const {
@@ -288,10 +289,24 @@ void WeatherWizard::showPlot() {
   plot_->show(bars);
 }
 
+/// The button is there only if it writes something; why it is not stands in its place.
+void WeatherWizard::showWhatIsRejected() {
+  QStringList why;
+  for (const StepCalibration& result : results_)
+    if (const std::string each = whyRejected(result); !each.empty())
+      why << tr("%1: %2").arg(stepLabel(result.step), QString::fromStdString(each));
+  const bool any = results_.empty() || why.size() < qsizetype(results_.size());
+  write_->setVisible(any);
+  write_->setEnabled(!running_ && any && !results_.empty());
+  rejected_->setVisible(!running_ && !why.isEmpty());
+  rejected_->setText((any ? tr("Not written with the others:") : tr("Nothing can be written:")) +
+                     QLatin1Char('\n') + why.join(QLatin1Char('\n')));
+}
+
 void WeatherWizard::write() {
-  if (running_ || results_.empty()) return;
+  if (!write_->isEnabled()) return;
   TuningParameters parameters = draft_.parameters();
-  for (const StepCalibration& result : results_) apply(result, parameters);
+  applyAccepted(results_, parameters);
   draft_.takeParameters(parameters, tr("Calibrate Weather"));
   status_->setText(tr("Written as one step, which Edit > Undo reverts."));
 }

@@ -51,10 +51,13 @@ class WeatherWizard : public QDialog {
   bool running() const { return running_; }
   /// Returns the results of the steps that were measured completely.
   const std::vector<StepCalibration>& results() const { return results_; }
-  /// Writes the results into the draft.
+  /// Writes the results into the draft, but none that the calibration rejects.
   void write();
 
   void reject() override;
+
+ signals:
+  void measuringChanged(bool measuring);
 
  private:
   std::vector<WeatherStep> chosenSteps() const;
@@ -62,6 +65,7 @@ class WeatherWizard : public QDialog {
   std::optional<WeatherStage::Frame> drawn(const WeatherDecision& decision);
   void setRunning(bool running);
   void addRow(const StepCalibration& result);
+  void showWhatIsRejected();
   void showPlot();
 
   views::Draft& draft_;
@@ -73,7 +77,9 @@ class WeatherWizard : public QDialog {
 
   QListWidget* steps_;
   QSpinBox* frames_;
-  QPushButton *run_, *write_, *close_;
+  QPushButton *run_, *write_;
+  QLabel* rejected_;
+  QPushButton* close_;
   QProgressBar* progress_;
   QLabel* status_;
   QTableWidget* table_;

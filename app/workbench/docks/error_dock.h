@@ -64,6 +64,7 @@ class ErrorDock : public QWidget {
   void askAndMeasure();
   void measure(const BenchChoice& choice);
   void cancel();
+  const ChildRun& child() const { return child_; }
   bool running() const { return child_.running(); }
   void askOpenResults();
   bool openResults(const QString& file);

@@ -31,7 +31,7 @@ struct ExperimentInputs {
 
 /// Runs the published experiments over the open terrain, flight and preset, and shows the published rows
 /// beside the measured ones; leverage, which no document has, alone. They run as a program of their own, so
-/// the viewport goes on and cancelling always works.
+/// that cancelling always works.
 class ExperimentsDock : public QWidget {
   Q_OBJECT
 
@@ -44,6 +44,7 @@ class ExperimentsDock : public QWidget {
 
   void run();
   void cancel();
+  const ChildRun& child() const { return child_; }
   bool running() const { return child_.running(); }
   const std::optional<experiment::Report>& report() const { return report_; }
 

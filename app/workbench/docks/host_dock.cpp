@@ -64,6 +64,25 @@ QString pictureText(const Latency& latency) {
       .arg(milliseconds(frame), milliseconds(latency.every.quantile(0.99)));
 }
 
+/// Says in one line why what came led to no state; empty if nothing came, or if all of it did.
+QString unusedText(const HostStatistics& host, const link::Senders& senders) {
+  if (host.bad > 0)
+    return HostDock::tr("%L1 of %L2 datagrams refused: %3")
+        .arg(host.bad)
+        .arg(host.received)
+        .arg(QString::fromStdString(host.firstBadReason));
+  if (host.received == 0 && senders.refused > 0)
+    return HostDock::tr("%L1 datagrams thrown away, the last from %2: allowed is %3")
+        .arg(senders.refused)
+        .arg(QString::fromStdString(senders.lastRefused), QString::fromStdString(senders.allowed));
+  if (host.notReady > 0 && host.states == 0)
+    return HostDock::tr("%L1 states below -1,000 ft: the simulator has not placed its aircraft yet")
+        .arg(host.notReady);
+  if (host.received > 0 && host.states == 0)
+    return HostDock::tr("%L1 datagrams understood, none of the ownship (entity 0)").arg(host.received);
+  return {};
+}
+
 /// Sixteen bytes a line with their offset.
 QString hexDump(const std::string& hex) {
   QString digits = QString::fromStdString(hex).remove(' ');
@@ -153,7 +172,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
                 "than rain and snow"));
   refused_ = addRow(*form, tr("Other senders"), tr("Packets that came from somebody who may not send"));
   bad_ = addRow(*form, tr("Bad packets"), tr("Packets that were refused; the first one is shown below"));
-  for (QLabel* wide : {picture_, counts_, refused_}) wide->setWordWrap(true);
+  for (QLabel* wide : {state_, picture_, counts_, refused_, bad_}) wide->setWordWrap(true);
   firstBad_->setReadOnly(true);
   firstBad_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   firstBad_->setLineWrapMode(QPlainTextEdit::NoWrap);
@@ -335,13 +354,13 @@ void HostDock::hideEvent(QHideEvent* event) {
   QWidget::hideEvent(event);
 }
 
-QString HostDock::stateText(double now) const {
+QString HostDock::stateText(double now, const QString& unused) const {
   if (feed_.receiver() == nullptr) return tr("not connected");
   switch (feed_.session().linkState(now)) {
     case LinkState::never:
-      return tr("listening on port %1 of %2, nothing yet")
+      return tr("listening on port %1 of %2, %3")
           .arg(feed_.receiver()->port())
-          .arg(interface_->currentData().toString());
+          .arg(interface_->currentData().toString(), unused.isEmpty() ? tr("nothing yet") : unused);
     case LinkState::live:
       return tr("live");
     case LinkState::silent:
@@ -355,10 +374,12 @@ QString HostDock::stateText(double now) const {
 void HostDock::refresh() {
   if (!isVisible()) return;
   const double now = link::now();
-  state_->setText(stateText(now));
   const Session& session = feed_.session();
   const bool any = feed_.receiver() != nullptr;
   const HostStatistics host = any ? feed_.receiver()->statistics() : HostStatistics{};
+  const link::Senders senders = any ? feed_.receiver()->senders() : link::Senders{};
+  const QString unused = unusedText(host, senders);
+  state_->setText(stateText(now, unused));
   const auto number = [](std::uint64_t n) { return QStringLiteral("%L1").arg(n); };
   detected_->setText(
       host.lastFrom.empty()
@@ -382,7 +403,6 @@ void HostDock::refresh() {
                                   number(host.reordered), number(host.implausible),
                                   number(feed_.receiver()->dropped()))
                        : kNone);
-  const link::Senders senders = any ? feed_.receiver()->senders() : link::Senders{};
   refused_->setText(!any ? kNone
                     : senders.refused == 0
                         ? tr("0; allowed: %1").arg(QString::fromStdString(senders.allowed))
@@ -395,7 +415,7 @@ void HostDock::refresh() {
                         : kNone);
   const QString symbols =
       host.refusedSymbols > 0 ? tr(", %1 symbol packets").arg(number(host.refusedSymbols)) : QString();
-  bad_->setText(any ? number(host.bad) + symbols : kNone);
+  bad_->setText(!any ? kNone : (host.bad > 0 ? unused : number(0)) + symbols);
   const QString dump = host.bad == 0
                            ? QString::fromStdString(host.firstSymbolReason)
                            : QString::fromStdString(host.firstBadReason) + '\n' + hexDump(host.firstBadHex);

@@ -53,7 +53,7 @@ class HostDock : public QWidget {
   void toggle();
   void showLink();
   void refresh();
-  QString stateText(double now) const;
+  QString stateText(double now, const QString& unused) const;
 
   Feed& feed_;
   views::Draft& draft_;

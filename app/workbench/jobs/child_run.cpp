@@ -19,6 +19,9 @@ ChildRun::ChildRun(QObject* parent) : QObject(parent) {
   connect(&process_, &QProcess::readyReadStandardError, this, &ChildRun::onErrors);
   connect(&process_, &QProcess::readyReadStandardOutput, this,
           [this] { output_ += process_.readAllStandardOutput(); });
+  connect(&process_, &QProcess::stateChanged, this, [this](QProcess::ProcessState state) {
+    if (state != QProcess::Running) emit runningChanged(running());
+  });
   connect(&process_, &QProcess::finished, this, &ChildRun::onFinished);
   connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
     if (error != QProcess::FailedToStart) return;

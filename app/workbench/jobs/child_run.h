@@ -9,7 +9,7 @@
 
 namespace trimtab::workbench {
 
-/// Runs `trimtab-cli` as a program of its own for long work, so that the viewport goes on and cancelling
+/// Runs `trimtab-cli` as a program of its own for long work, so that the window responds and cancelling
 /// always works.
 class ChildRun : public QObject {
   Q_OBJECT
@@ -30,6 +30,7 @@ class ChildRun : public QObject {
   bool running() const { return process_.state() != QProcess::NotRunning; }
 
  signals:
+  void runningChanged(bool running);
   void progressed(int percent, const QString& what);
   void ended(const trimtab::workbench::ChildRun::Ended& how);
 

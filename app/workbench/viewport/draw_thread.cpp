@@ -69,8 +69,17 @@ void DrawThread::setTerrain(std::shared_ptr<const terrain::Database> terrain) {
   });
 }
 
+void DrawThread::setHeld(bool held) {
+  held_ = held;
+  if (!held_)
+    for (const auto& run : std::exchange(waiting_, {})) run();
+}
+
 void DrawThread::run(std::function<void(scene::ErrorMeter&)> work, QObject* receiver,
                      std::function<void()> done) {
+  if (held_)
+    return waiting_.push_back([this, work = std::move(work), receiver = QPointer<QObject>(receiver),
+                               done = std::move(done)] { run(work, receiver, done); });
   QMetaObject::invokeMethod(worker_, [this, work = std::move(work), receiver = QPointer<QObject>(receiver),
                                       done = std::move(done)] {
     if (!inside_->tried)

@@ -6,6 +6,7 @@
 #include <QThread>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "trimtab/scene/error_meter.h"
 #include "trimtab/terrain/format/database.h"
@@ -28,6 +29,8 @@ class DrawThread : public QObject {
   /// Queues `work` to run on that thread, and then `done` on this one, unless `receiver` is gone by then.
   /// Neither is called if no context can be made.
   void run(std::function<void(scene::ErrorMeter&)> work, QObject* receiver, std::function<void()> done);
+  /// While this is on, work waits: something else measures times. What runs already ends.
+  void setHeld(bool held);
   bool usable() const { return missing_.empty(); }
   /// Returns why no context can be made; empty if it was made, or was not needed yet.
   const Findings& missing() const { return missing_; }
@@ -42,6 +45,8 @@ class DrawThread : public QObject {
   QThread thread_;
   QObject* worker_;
   std::unique_ptr<Inside> inside_;  ///< used by the thread alone while it runs
+  bool held_ = false;
+  std::vector<std::function<void()>> waiting_;  ///< what was requested while held, in order
   Findings missing_;
 };
 

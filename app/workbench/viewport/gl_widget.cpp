@@ -2,12 +2,39 @@
 #include "gl_widget.h"
 
 #include <QOpenGLContext>
+#include <QOpenGLExtraFunctions>
 #include <QOpenGLFramebufferObject>
-#include <QOpenGLFunctions>
+#include <QOpenGLPaintDevice>
 #include <QPainter>
 #include <QWindow>
 
 namespace trimtab::workbench {
+namespace {
+
+constexpr GLuint kPainterArrays = 8;
+
+/// OSG leaves its own GL state behind, but QPainter expects the default of what it does not set itself.
+void prepareForPainter(QOpenGLExtraFunctions& gl, QSize pixels) {
+  gl.glBindVertexArray(0);
+  gl.glUseProgram(0);
+  gl.glBindSampler(0, 0);
+  // Arrays that OSG left on would be read by the painter's draws, with the painter's counts.
+  for (GLuint array = 0; array < kPainterArrays; ++array) {
+    gl.glDisableVertexAttribArray(array);
+    gl.glVertexAttribDivisor(array, 0);
+  }
+  gl.glBindBuffer(GL_ARRAY_BUFFER, 0);
+  gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
+  gl.glActiveTexture(GL_TEXTURE0);
+  for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST}) gl.glDisable(off);
+  gl.glStencilMask(0xff);
+  gl.glDepthMask(GL_TRUE);
+  gl.glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  gl.glViewport(0, 0, pixels.width(), pixels.height());
+}
+
+}  // namespace
 
 GlWidget::GlWidget(QWidget* parent) : QWidget(parent) {
   // The widgets around this one stay without windows of their own.
@@ -69,6 +96,18 @@ void GlWidget::bindFramebuffer() {
 
 unsigned GlWidget::framebuffer() const {
   return framebuffer_ != nullptr ? framebuffer_->handle() : 0;
+}
+
+/// Paints on a device of its own: while the window is grabbed, Qt redirects a painter on the widget itself
+/// away from GL.
+void GlWidget::paintFlat(const std::function<void(QPainter&)>& paint) {
+  const QSize pixels = sizePx();
+  prepareForPainter(*context_->extraFunctions(), pixels);
+  QOpenGLPaintDevice device(pixels);
+  device.setDevicePixelRatio(devicePixelRatioF());
+  QPainter painter(&device);
+  painter.setFont(font());
+  paint(painter);
 }
 
 QImage GlWidget::grabFramebuffer() {

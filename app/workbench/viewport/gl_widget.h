@@ -3,6 +3,7 @@
 
 #include <QOffscreenSurface>
 #include <QWidget>
+#include <functional>
 #include <memory>
 
 class QOpenGLContext;
@@ -45,6 +46,8 @@ class GlWidget : public QWidget {
   /// Binds the framebuffer, which has a depth and a stencil buffer, in such a way that QPainter finds it
   /// again.
   void bindFramebuffer();
+  /// Paints over the image in the framebuffer. The context is current, in any state.
+  void paintFlat(const std::function<void(QPainter&)>& paint);
   /// Returns the name of the framebuffer, for what does not use Qt.
   unsigned framebuffer() const;
   /// Sends the last image once more, as after another window lay over it.

@@ -288,7 +288,7 @@ void SplitView::compare() {
     if (!symbols_)
       for (FrameRequest& request : one.requests) request.symbology.reset();
   }
-  busy_ = true;
+  setBusy(true);
   sinceLast_.start();
   thread_.run(
       [work, rests, longestMs = longestMs_](scene::ErrorMeter& meter) {
@@ -316,7 +316,7 @@ void SplitView::compare() {
       },
       this,
       [this, work, shrink] {
-        busy_ = false;
+        setBusy(false);
         if (shrink == shrink_ && work->tookMs > longestMs_) shrink_ = std::min(shrink_ * 2, kSmallest);
         if (work->tookMs < kQuickMs) shrink_ = std::max(shrink_ / 2, 1);
         if (work->generation == generation_) {
@@ -331,9 +331,15 @@ void SplitView::compare() {
       });
 }
 
+void SplitView::setBusy(bool busy) {
+  busy_ = busy;
+  emit busyChanged(busy);
+}
+
 /// What was asked of the thread never comes back.
 void SplitView::sayMissing(const Findings& missing) {
-  busy_ = changed_ = false;
+  changed_ = false;
+  setBusy(false);
   status_->setText(
       tr("Presets cannot be compared on this machine: %1").arg(QString::fromStdString(toString(missing))));
 }
@@ -350,7 +356,8 @@ void SplitView::showWork(const Work& work) {
   }
   heat_->show(compared.map, work.flip, work.largest);
   fill(work);
-  QString text = tr("Measured in %1 at %L2 × %L3 px%4; errors of left and right against the reference.")
+  QString text = tr("Measured in %1 at %L2 × %L3 px%4; errors of left and right against the reference. The "
+                        "live view waits while both are drawn.")
                      .arg(views::msText(work.tookMs))
                      .arg(work.widthPx)
                      .arg(work.heightPx)

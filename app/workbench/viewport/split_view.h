@@ -82,6 +82,7 @@ class SplitView : public QWidget {
 
  signals:
   void compared();
+  void busyChanged(bool busy);  ///< both images are being drawn, or are no longer
   void refused(const QString& what, const trimtab::Findings& findings);
   void overViewportChanged(bool over);
 
@@ -107,6 +108,7 @@ class SplitView : public QWidget {
   void showAge();
   void compare();
   FrameRequest requestOf(Session& side) const;
+  void setBusy(bool busy);
   void sayMissing(const Findings& missing);
   void showWork(const Work& work);
   void fill(const Work& work);

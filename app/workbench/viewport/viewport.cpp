@@ -6,7 +6,6 @@
 #include <QOpenGLContext>
 #include <QOpenGLExtraFunctions>
 #include <QOpenGLFramebufferObject>
-#include <QOpenGLPaintDevice>
 #include <QPainter>
 #include <QScreen>
 #include <QTimer>
@@ -22,7 +21,6 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr qint64 kDepthMapGapMs = 100;
-constexpr GLuint kPainterArrays = 8;
 const QColor kEmptyColour(38, 42, 48);
 
 /// Returns where an image lies in the widget without being distorted. Device pixels, origin at the lower
@@ -30,27 +28,6 @@ const QColor kEmptyColour(38, 42, 48);
 QRect letterbox(QSize picture, QSize widget) {
   const QSize fits = picture.scaled(widget, Qt::KeepAspectRatio);
   return {QPoint((widget.width() - fits.width()) / 2, (widget.height() - fits.height()) / 2), fits};
-}
-
-/// OSG leaves its own GL state behind, but QPainter expects the default of what it does not set itself.
-void prepareForPainter(QOpenGLExtraFunctions& gl, QSize pixels) {
-  gl.glBindVertexArray(0);
-  gl.glUseProgram(0);
-  gl.glBindSampler(0, 0);
-  // Arrays that OSG left on would be read by the painter's draws, with the painter's counts.
-  for (GLuint array = 0; array < kPainterArrays; ++array) {
-    gl.glDisableVertexAttribArray(array);
-    gl.glVertexAttribDivisor(array, 0);
-  }
-  gl.glBindBuffer(GL_ARRAY_BUFFER, 0);
-  gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
-  gl.glActiveTexture(GL_TEXTURE0);
-  for (const GLenum off : {GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST}) gl.glDisable(off);
-  gl.glStencilMask(0xff);
-  gl.glDepthMask(GL_TRUE);
-  gl.glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  gl.glViewport(0, 0, pixels.width(), pixels.height());
 }
 
 }  // namespace
@@ -120,6 +97,7 @@ qint64 Viewport::controlsFirstMs() const {
 
 void Viewport::paintEvent(QPaintEvent* event) {
   const bool fits = sizePx() == paintedPx_ && !isGrabbed();
+  if (fits && paused_) return showPaused();
   // Nothing changed: the place was covered and is seen again.
   if (fits && !dirty_) return showAgain();
   const qint64 wait = controlsFirstMs();
@@ -149,6 +127,28 @@ void Viewport::showEvent(QShowEvent* event) {
 void Viewport::setCameraEnabled(bool on) {
   cameraEnabled_ = on;
   if (!on) camera_.releaseAll();
+}
+
+void Viewport::setPaused(bool paused, const QString& why) {
+  if (paused == paused_ && why == whyPaused_) return;
+  // A reason over the image goes only with another image.
+  dirty_ = dirty_ || !whyPaused_.isEmpty();
+  paused_ = paused;
+  whyPaused_ = why;
+  if (!why.isEmpty()) {
+    camera_.releaseAll();
+    sinceMove_.invalidate();
+  }
+  if (isVisible()) update();
+}
+
+/// The last image, with the reason over it.
+void Viewport::showPaused() {
+  if (whyPaused_ != shownOverlay_.banner && !whyPaused_.isEmpty() && makeCurrent()) {
+    shownOverlay_.banner = whyPaused_;
+    paintFlat([this](QPainter& painter) { paintOverlay(painter, rect(), {.banner = whyPaused_}); });
+  }
+  showAgain();
 }
 
 void Viewport::setNotice(const QString& text) {
@@ -223,7 +223,11 @@ void Viewport::paintGL() {
   again_ = camera_.moving() || (picture && picture->again);
   unreported_ = picture.has_value();
   shownOverlay_ = picture ? std::move(picture->overlay) : OverlayContents{.notice = notice_};
-  paintOverlays();
+  if (!whyPaused_.isEmpty()) shownOverlay_.banner = whyPaused_;
+  paintFlat([this](QPainter& painter) {
+    paintOverlay(painter, rect(), shownOverlay_);
+    if (editor_ != nullptr) editor_->paint(painter);
+  });
 }
 
 void Viewport::report() {
@@ -341,19 +345,6 @@ void Viewport::readDepthMap() {
   }
   const QImage rows(grey.pixels.data(), grey.width, grey.height, grey.width, QImage::Format_Grayscale8);
   emit depthMapRead(rows.mirrored());
-}
-
-/// Paints on a device of its own: while the window is grabbed, Qt redirects a painter on the widget itself
-/// away from GL.
-void Viewport::paintOverlays() {
-  const QSize pixels = sizePx();
-  prepareForPainter(*context()->extraFunctions(), pixels);
-  QOpenGLPaintDevice device(pixels);
-  device.setDevicePixelRatio(devicePixelRatioF());
-  QPainter painter(&device);
-  painter.setFont(font());
-  paintOverlay(painter, rect(), shownOverlay_);
-  if (editor_ != nullptr) editor_->paint(painter);
 }
 
 void Viewport::setSymbologyEditor(SymbologyEditor* editor) {

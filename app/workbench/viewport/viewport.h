@@ -36,9 +36,9 @@ struct Picture {
 };
 
 /// Shows the terrain that scene::Renderer draws. It paints on demand only: any number of calls of
-/// `invalidate` give one paint, and nothing is painted while it is hidden. Controls go first: while the mouse
-/// holds one, such as a point of a curve, and just after a click elsewhere, the viewport waits after
-/// an image for as long as the image took, at most 100 ms. Without terrain it says how to open some.
+/// `invalidate` give one paint, and nothing is painted while it is hidden or paused. Controls go first: while
+/// the mouse holds one, such as a point of a curve, and just after a click elsewhere, the viewport waits
+/// after an image for as long as the image took, at most 100 ms. Without terrain it says how to open some.
 class Viewport : public GlWidget {
   Q_OBJECT
 
@@ -60,6 +60,10 @@ class Viewport : public GlWidget {
   /// While this is on, `pointed` reports where in the image the pointer is, whether a button is pressed or
   /// not.
   void setPointerWanted(bool wanted);
+  /// While this is on, nothing is drawn but what a new size needs. `why` stands over the last image, and keys
+  /// that are held are released; with an empty one, for a moment, the camera flies on.
+  void setPaused(bool paused, const QString& why);
+  bool paused() const { return paused_; }
   /// Sets the text that is shown until there is an image.
   void setNotice(const QString& text);
   struct Measured {
@@ -116,7 +120,7 @@ class Viewport : public GlWidget {
   void showInset(OverlayContents& overlay);
   void readDepthMap();
   void readPicked(QSize picture);
-  void paintOverlays();
+  void showPaused();
   void placePicture(const Picture& picture, QSize pixels);
   void report();
   void paintAgain();
@@ -145,7 +149,9 @@ class Viewport : public GlWidget {
   QSize paintedPx_;           ///< the widget's size, of the last image
   QElapsedTimer sinceShown_;  ///< since then
   QTimer later_;              ///< runs while an image waits
-  bool unreported_ = false;   ///< `painted` has not been emitted for the last image
+  bool paused_ = false;
+  QString whyPaused_;
+  bool unreported_ = false;  ///< `painted` has not been emitted for the last image
   std::uint64_t paints_ = 0;
 };
 

@@ -73,6 +73,7 @@ MainWindow::~MainWindow() {
   // Docks and viewport use the members, so they go first. Meanwhile nothing may call into a controller whose
   // docks are gone.
   controllers_.trace->stop();
+  pause_.disconnect(this);
   feed_.disconnect();
   viewport_->disconnect();
   viewport_->setSource({});
@@ -94,7 +95,7 @@ void MainWindow::makeMiddle() {
 }
 
 void MainWindow::makeControllers() {
-  const Workplace at{draft_, feed_, *viewport_, *panels_.messages, *this};
+  const Workplace at{draft_, feed_, *viewport_, pause_, *panels_.messages, *this};
   Controllers& c = controllers_;
   c.document = std::make_unique<DocumentController>(at, *notices_);
   c.terrain = std::make_unique<TerrainController>(at, *panels_.terrain, *panels_.staticLod);
@@ -141,7 +142,7 @@ void MainWindow::makeStatusBar() {
 }
 
 void MainWindow::makeMenus() {
-  const Workplace at{draft_, feed_, *viewport_, *panels_.messages, *this};
+  const Workplace at{draft_, feed_, *viewport_, pause_, *panels_.messages, *this};
   auto* menus = new Menus(*this, at, controllers_, panels_, *sessions_);
   connect(menus, &Menus::everyDockAsked, this, &MainWindow::showEveryDock);
   connect(menus, &Menus::welcomeAsked, this, &MainWindow::welcome);
@@ -173,16 +174,35 @@ void MainWindow::connectParts() {
   connectPlots(panels_, controllers_, feed_);
   connect(workspaces_, &Workspaces::currentChanged, this, &MainWindow::showPlotsOf);
   connect(&c.errors->dock().live(), &LiveMeter::measured, panels_.changes,
-          [this](const LiveMeter::Measured& m) { panels_.changes->snapshots().addError(m.error.flip); });
+          [this](const LiveMeter::Measured& m) {
+            if (!controllers_.observer->frozen()) panels_.changes->snapshots().addError(m.error.flip);
+          });
   connect(dockOf(*panels_.changes), &QDockWidget::visibilityChanged, panels_.changes, &ChangesDock::setSeen);
   connect(panels_.changes, &ChangesDock::errorsWanted, &c.errors->dock(),
           [this](bool wanted) { controllers_.errors->dock().setWatched(panels_.changes, wanted); });
+
+  connectPause();
 
   MessagePanel* const messages = panels_.messages;
   connect(messages, &MessagePanel::errorAdded, messages, [messages] { raiseDock(*messages); });
   connect(panels_.host, &HostDock::refused, messages, &MessagePanel::add);
   connect(panels_.flight, &FlightDock::refused, messages, &MessagePanel::add);
   connect(panels_.experiments, &ExperimentsDock::refused, messages, &MessagePanel::add);
+}
+
+/// Whatever measures times has the machine for itself.
+void MainWindow::connectPause() {
+  pause_.follow(controllers_.errors->dock().child(), &ChildRun::runningChanged, tr("presets are measured"));
+  pause_.follow(panels_.experiments->child(), &ChildRun::runningChanged, tr("an experiment runs"));
+  // Comparing says so itself: it goes on and off all the time.
+  pause_.follow(controllers_.errors->splitView(), &SplitView::busyChanged, {});
+  connect(&pause_, &ViewPause::changed, this, &MainWindow::showPause);
+}
+
+void MainWindow::showPause() {
+  viewport_->setPaused(pause_.on(), pause_.text());
+  measuring_.setHeld(pause_.onBut(controllers_.errors->splitView()));
+  feed_.setPicturesDrawn(!isMinimized() && !pause_.on());
 }
 
 void MainWindow::restoreSize() {
@@ -281,7 +301,7 @@ void MainWindow::childEvent(QChildEvent* event) {
 
 void MainWindow::changeEvent(QEvent* event) {
   QMainWindow::changeEvent(event);
-  if (event->type() == QEvent::WindowStateChange) feed_.setPicturesDrawn(!isMinimized());
+  if (event->type() == QEvent::WindowStateChange) showPause();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

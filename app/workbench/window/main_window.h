@@ -5,6 +5,7 @@
 
 #include "app/workbench/controllers/controllers.h"
 #include "app/workbench/jobs/feed.h"
+#include "app/workbench/jobs/view_pause.h"
 #include "app/workbench/viewport/draw_thread.h"
 #include "app/workbench/viewport/viewport.h"
 #include "dock_layout.h"
@@ -66,6 +67,8 @@ class MainWindow : public QMainWindow {
   void makeControllers();
   void makeMenus();
   void makeStatusBar();
+  void connectPause();
+  void showPause();
   void welcome();
   void importRules(const QString& path);
   void connectParts();
@@ -80,6 +83,7 @@ class MainWindow : public QMainWindow {
   views::Draft draft_;
   Feed feed_{draft_.active()};
   DrawThread measuring_;
+  ViewPause pause_;
   Viewport* viewport_ = nullptr;
   NoticeBar* notices_ = nullptr;
   views::BudgetStrip* strip_ = nullptr;

@@ -61,6 +61,9 @@ SavedSession SessionKeeper::current() const {
     session.preset = document.file();
   else if (std::find(shipped.begin(), shipped.end(), name) != shipped.end())
     session.preset = QString::fromStdString(name);
+  if (session.preset.isEmpty() || at_.draft.isDirty())
+    if (const Result<std::string> edits = document.editsText())
+      session.draft = QString::fromStdString(*edits);
   session.flight = by_.flight->flightDock().file();
   if (!session.flight.isEmpty()) session.flightPositionS = by_.flight->flightDock().position();
   if (const link::Receiver* receiver = at_.feed.receiver()) session.listenPort = receiver->port();
@@ -93,7 +96,10 @@ bool SessionKeeper::open(const QString& file) {
     file_ = QFileInfo(file).absoluteFilePath();
     rememberRecent(QLatin1String(kRecent), file_);
   }
-  if (!session.preset.isEmpty()) by_.document->open(session.preset);
+  if (session.draft)
+    by_.document->openEdits(session.preset, *session.draft, file);
+  else if (!session.preset.isEmpty())
+    by_.document->open(session.preset);
   if (const int index = int(workspaces_.names().indexOf(session.workspace)); index >= 0)
     workspaces_.show(index);
   by_.flight->flightDock().close();
@@ -124,8 +130,7 @@ bool SessionKeeper::saveTo(const QString& file) {
   at_.messages.note(tr("The session is saved: %1").arg(file_));
   if (at_.draft.isDirty())
     at_.messages.note(
-        tr("The session names the preset; its unsaved edits are not in it (Ctrl+S saves them, Shift+F9 keeps "
-           "them as snapshot A)"));
+        tr("The session holds the unsaved edits of the preset; Ctrl+S writes them to its file"));
   return true;
 }
 
@@ -144,8 +149,11 @@ void SessionKeeper::askSave() {
 void SessionKeeper::keepLast() {
   if (!by_.terrain->database()) return;
   QDir().mkpath(QFileInfo(lastFile()).path());
+  SavedSession session = current();
+  // The person has just been asked about the edits, and has given them up.
+  session.draft.reset();
   // At the end there is nobody to tell; the session before it stays.
-  (void)writeSession(lastFile(), current());
+  (void)writeSession(lastFile(), session);
 }
 
 void SessionKeeper::keepView(const QString& name) {

@@ -5,7 +5,6 @@
 #include <QWidget>
 
 #include "views/model/live.h"
-#include "views/model/throttle.h"
 
 class QLabel;
 
@@ -36,15 +35,12 @@ class StatusStrip : public QWidget {
  private:
   QLabel* addPlace(const QString& name, const QString& widest, const QString& toolTip);
   void showAge();
-  void showBudget();
 
   const Feed& feed_;
   const views::Draft& draft_;
   QLabel *workspace_, *budget_, *recording_, *source_;
   QString sourceText_;
   QTimer ages_;  ///< runs only while a link for a host is open
-  double frameMs_ = 0;  ///< of the last image
-  views::Throttle budgets_;
 };
 
 }  // namespace trimtab::workbench

@@ -58,23 +58,38 @@ TEST(ExperimentCommand, printsOneDocumentAndWritesTablesAndPlots) {
     EXPECT_GT(test::readFile((dir / "out") / name).size(), 100u) << name;
 }
 
-TEST(WeatherCommand, writesTheCalibratedStepIntoAPreset) {
+TEST(WeatherCommand, writesTheCalibratedStepIntoAPresetUnlessItIsRejected) {
   const test::ScratchDir dir;
+  int rejected = 0;
   const std::string cli = test::program("trimtab-cli").string(), tif = (dir / "sample.tif").string(),
                     database = (dir / "db").string(), preset = (dir / "tuned.json").string();
   ASSERT_EQ(test::run(cli + " terrain sample --size-km 6 -o " + tif).exitCode, 0);
   ASSERT_EQ(test::run(cli + " terrain bake " + tif + " -o " + database).exitCode, 0);
   const std::string command =
       cli + " weather calibrate --terrain " + database + " --size 160x90 --repeats 1 --step rain_heavy";
-  const test::Ran ran = test::run(command + " --json -o " + preset);
-  ASSERT_EQ(ran.exitCode, 0) << ran.err;
-  const json document = json::parse(ran.out);
-  ASSERT_EQ(document.at("steps").size(), 1u);
-  const json& step = document.at("steps")[0];
-  EXPECT_EQ(step.at("step"), "rain_heavy");
-  EXPECT_FALSE(step.at("trials").empty());
-  const json written = json::parse(test::readFile(preset)).at("parameters");
-  for (const auto& [key, value] : written.items()) EXPECT_THAT(key, HasSubstr("weather.")) << value;
+  // A tolerance so small that no two times agree, and one within which they do unless the machine is busy.
+  for (const char* tolerance : {"0.001", "0.5"}) {
+    std::filesystem::remove(preset);
+    const test::Ran ran =
+        test::run(command + " --set weather.tolerance=" + tolerance + " --json -o " + preset);
+    const json document = json::parse(ran.out);
+    ASSERT_EQ(document.at("steps").size(), 1u);
+    const json& step = document.at("steps")[0];
+    EXPECT_EQ(step.at("step"), "rain_heavy");
+    EXPECT_FALSE(step.at("trials").empty());
+    const std::string why = step.at("rejected");
+    EXPECT_EQ(ran.exitCode, why.empty() ? 0 : 1) << ran.err;
+    EXPECT_EQ(std::filesystem::exists(preset), why.empty());
+    if (!why.empty()) {
+      ++rejected;
+      EXPECT_THAT(ran.err, HasSubstr("rain_heavy: expected times that agree"));
+      EXPECT_THAT(ran.err, HasSubstr(why));
+      continue;
+    }
+    const json written = json::parse(test::readFile(preset)).at("parameters");
+    for (const auto& [key, value] : written.items()) EXPECT_THAT(key, HasSubstr("weather.")) << value;
+  }
+  EXPECT_GE(rejected, 1);
   const test::Ran refused = test::run(command + " --vertices 1e9 -o " + (dir / "none.json").string());
   EXPECT_EQ(refused.exitCode, 1);
   EXPECT_THAT(refused.err, HasSubstr("--vertices"));

@@ -1,10 +1,13 @@
 #include "trimtab/weather/calibrate.h"
 
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "tests/support.h"
+#include "trimtab/preset/preset.h"
 #include "trimtab/preset/table.h"
 
 namespace trimtab::test {
@@ -188,6 +191,57 @@ TEST(Calibration, saysWhenTheMachineBecameBusyMeanwhile) {
     EXPECT_DOUBLE_EQ(c.clearMs, 12);
     EXPECT_DOUBLE_EQ(c.clearAfterMs, 12 * busier);
   }
+}
+
+/// Results on which the calibration's own checks turn.
+std::vector<StepCalibration> doubtful() {
+  int calls = 0;
+  const MeasureFrame busy = [&calls](const WeatherDecision& d) {
+    return std::optional(Machine{}(d) * (++calls > 12 ? 1.5 : 1));
+  };
+  const MeasureFrame fartherIsFaster = [](const WeatherDecision& d) {
+    if (!d.fogged) return std::optional(12.0);
+    return std::optional(std::isinf(d.farM) ? 20.0 : 11 - d.farM / 10000);
+  };
+  // Slow without a far plane, and faster than clear air with any: a plane at the terrain's end removes
+  // nothing.
+  const MeasureFrame noCutIsSlower = [](const WeatherDecision& d) {
+    return std::optional(!d.fogged ? 12.0 : std::isinf(d.farM) ? 20.0 : 6 + d.farM / 1e5);
+  };
+  const MeasureFrame noNumber = [](const WeatherDecision& d) {
+    return std::optional(d.fogged ? std::nan("") : 12.0);
+  };
+  return {calibrated(WeatherStep::rain_heavy, busy, 0.05),
+          calibrated(WeatherStep::rain_medium, fartherIsFaster),
+          calibrated(WeatherStep::snow_light, noCutIsSlower), calibrated(WeatherStep::snow_heavy, noNumber)};
+}
+
+TEST(Calibration, whatItRejectsIsNotWrittenAndSaysWhy) {
+  std::vector<StepCalibration> results = doubtful();
+  const char* const reasons[] = {"clear air took 12.00 ms before and 18.00 ms after", "contradict each other",
+                                 "contradict each other", "no number"};
+  for (std::size_t i = 0; i < results.size(); ++i)
+    EXPECT_THAT(whyRejected(results[i]), ::testing::HasSubstr(reasons[i])) << i;
+  EXPECT_GT(results[2].farM, 0.9 * 50000) << "a far plane that no time speaks for";
+  results.push_back(calibrated(WeatherStep::rain_light, exactly(Machine{})));
+  EXPECT_EQ(whyRejected(results.back()), "");
+
+  TuningParameters p;
+  const std::vector<RejectedStep> rejected = applyAccepted(results, p);
+  ASSERT_EQ(rejected.size(), 4u);
+  EXPECT_EQ(rejected[2].step, WeatherStep::snow_light);
+  EXPECT_EQ(rejected[2].why, whyRejected(results[2]));
+  TuningParameters light;
+  apply(results.back(), light);
+  EXPECT_TRUE(differences(p, light).empty()) << "what is accepted is written beside them";
+  EXPECT_FALSE(differences(p, {}).empty());
+}
+
+TEST(Calibration, aJumpBetweenTwoFarPlanesIsNoContradiction) {
+  const MeasureFrame jumps = [](const WeatherDecision& d) {
+    return std::optional(!d.fogged ? 12.0 : d.farM < 20000 ? 9.0 : 16.0);
+  };
+  EXPECT_EQ(whyRejected(calibrated(WeatherStep::rain_heavy, jumps)), "");
 }
 
 TEST(Calibration, endsWhenTheMeasuringStops) {

@@ -16,12 +16,12 @@
 #include "trimtab/host/ground_velocity.h"
 #include "trimtab/host/host_clock_offset.h"
 #include "trimtab/host/received_state.h"
-#include "trimtab/measure/statistics.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/session/air_drift.h"
 #include "trimtab/session/head_input.h"
 #include "trimtab/session/image_rate.h"
+#include "trimtab/session/latency.h"
 #include "trimtab/session/motion_ahead.h"
 #include "trimtab/session/precipitation_fade.h"
 #include "trimtab/session/signal_tracker.h"
@@ -38,16 +38,6 @@ enum class LinkState {
   jumped   ///< live, and within the last second the aircraft was moved farther than it can fly
 };
 std::string_view toText(LinkState state);
-
-/// Latencies of the newest packets and images, milliseconds.
-struct Latency {
-  SampleWindow decoded{4096};  ///< from the kernel's time stamp to the decoded state
-  SampleWindow shown{
-      4096};  ///< from the kernel's time stamp of the packet that an image shows, to that image
-  /// As `shown`, also for packets that a newer one overtook: to the image that shows the newer one.
-  SampleWindow every{4096};
-  SampleWindow frame{4096};  ///< from the request of an image that shows a packet to its end
-};
 
 class Session {
  public:
@@ -93,8 +83,8 @@ class Session {
   /// Returns what the last decision was made from; before the first decision, the newest state. Call it only
   /// if `hasState`.
   const FrameInput& input() const { return decided_; }
-  /// Returns the decision for the last packet; after `setParameters`, the decision that an equal packet would
-  /// get now.
+  /// Returns the decision for the last packet; after `setParameters`, the decision that it would get now.
+  /// Head motion goes from the packet before it, because no time passes in an edit.
   const FrameDecision& decision() const { return decision_; }
   /// Returns the memory that the next packet will be decided with.
   const DecisionMemory& memory() const { return memory_; }
@@ -103,7 +93,7 @@ class Session {
   double packetAge(double now) const;
   std::uint64_t packets() const { return packets_; }
   std::uint64_t jumps() const { return jumps_; }
-  const Latency& latency() const { return latency_; }
+  const Latency& latency() const { return latency_.latency(); }
 
   /// Returns what holds the budget: its cost model, and how its predictions come out.
   FrameHold& hold() { return budget_.hold; }
@@ -132,6 +122,9 @@ class Session {
   /// count as shown by it. The remaining time of a blur runs from the first image of its decision.
   std::optional<FrameRequest> request(double now, int windowWidthPx, int windowHeightPx,
                                       ViewFit fit = ViewFit::preset);
+  /// Returns what the image that was requested last costs, with `decide` filled in. `finished` returns the
+  /// same.
+  FrameCost costOf(const FrameResult& result) const;
   /// Call this when the requested image is finished. It completes trace rows, latencies and the cost that the
   /// next input holds, and returns that cost with `decide` filled in.
   FrameCost finished(const FrameResult& result, double now);
@@ -160,7 +153,7 @@ class Session {
 
  private:
   void decideNext(FrameInput input, double kernelTime);
-  void wait(double kernelTime);
+  void decideWith(DecisionMemory& memory);
   void arrive(const AircraftState& state, double kernelTime);
   bool decidesImages() const;
   void decideImage(double now);
@@ -180,13 +173,14 @@ class Session {
   std::shared_ptr<const GroundHeights> ground_;
 
   DecisionMemory memory_, lookMemory_;
+  MotionMemory motionBefore_;          ///< before the last decision
   std::optional<FrameInput> current_;  ///< of the newest state
   FrameInput decided_;                 ///< of the last decision
   FrameDecision decision_;
   ImageRate imageRate_;
   std::optional<std::uint64_t> lastVertices_;  ///< of the last finished image
   FrameCost lastCost_;
-  double decideMs_ = 0;  ///< spent since the last image
+  double decideMs_ = 0, requestedDecideMs_ = 0;  ///< spent since the last request, and on the image requested
   std::uint64_t overBudget_ = 0;
   bool looking_ = false;
   bool replayed_ = false;
@@ -219,16 +213,13 @@ class Session {
   HostClockOffset hostClock_;
   double lastArrival_ = 0, lastJump_ = 0;
   std::uint64_t packets_ = 0, jumps_ = 0;
-  Latency latency_;
+  LatencyMeter latency_;
 
   std::shared_ptr<const HostSymbols> hostSymbols_;  ///< of the live link; null for any other source
   std::vector<std::uint16_t> drawnDark_;            ///< its dark symbols in the last image requested
 
   bool dirty_ = false;
   std::optional<AircraftState> drawnEye_;
-  std::vector<double> waiting_,
-      inPicture_;  ///< kernel times of packets that no image, or the requested one, shows
-  double requestedAt_ = 0;
   bool keepRows_ = false;
   std::vector<TraceRow> rows_;
   std::size_t completeRows_ = 0, requestedRows_ = 0;

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,7 +62,10 @@ struct StepCalibration {
   double presetDensity = 0;  ///< what was measured
   double clearAfterMs = 0;   ///< clear weather again, after the step; another time shows a busy machine
   bool drifted = false;      ///< both clear times differ by more than the tolerance
-  bool notMonotone = false;  ///< a farther cut was faster than a nearer one by more than the tolerance
+  /// The times contradict each other: a farther cut was faster than a nearer one by more than the tolerance,
+  /// or every far plane up to the terrain's end was faster than clear weather, and no far plane at all was
+  /// slower.
+  bool notMonotone = false;
   std::vector<CalibrationTrial> trials;
 
   double lossMs() const { return uncutMs - clearMs; }
@@ -78,8 +82,20 @@ std::optional<StepCalibration> calibrateStep(WeatherStep step, const TuningParam
                                              const MeasureFrame& measure,
                                              const CalibrationSettings& settings);
 
+/// Returns why a result says nothing about the weather, as a sentence without a full stop; empty if it may be
+/// written. A machine that was busy meanwhile gives such results.
+std::string whyRejected(const StepCalibration& calibration);
+
 /// Writes the far plane and the density of a step into the parameters, with the adaptive ratio. Values are
-/// clamped to the parameters' ranges.
+/// clamped to the parameters' ranges. It does not look at `whyRejected`; see applyAccepted().
 void apply(const StepCalibration& calibration, TuningParameters& parameters);
+
+struct RejectedStep {
+  WeatherStep step = WeatherStep::clear;
+  std::string why;
+};
+/// Writes every result that is not rejected, as apply() does, and returns the others.
+std::vector<RejectedStep> applyAccepted(std::span<const StepCalibration> results,
+                                        TuningParameters& parameters);
 
 }  // namespace trimtab
