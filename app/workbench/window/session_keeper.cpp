@@ -115,13 +115,14 @@ bool SessionKeeper::open(const QString& file) {
 }
 
 bool SessionKeeper::saveTo(const QString& file) {
-  if (const Result<Done> written = writeSession(file, current()); !written) {
+  const Result<Done> written = writeSession(file, current());
+  if (!written) {
     at_.messages.add(tr("The session cannot be saved: %1").arg(file), written.findings());
     return false;
   }
   file_ = QFileInfo(file).absoluteFilePath();
   rememberRecent(QLatin1String(kRecent), file_);
-  at_.messages.note(tr("The session is saved: %1").arg(file_));
+  at_.messages.add(tr("The session is saved: %1").arg(file_), written.findings());
   if (at_.draft.isDirty())
     at_.messages.note(
         tr("The session names the preset; its unsaved edits are not in it (Ctrl+S saves them, Shift+F9 keeps "
