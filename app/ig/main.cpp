@@ -162,6 +162,7 @@ int runWith(const Options& options) {
 }  // namespace trimtab::ig
 
 int main(int argc, char** argv) {
+  trimtab::failLargeWrites();
   ::mallopt(M_MMAP_THRESHOLD, trimtab::ig::kReturnedBlock);
   int exitCode = trimtab::ig::kDone;
   const std::optional<trimtab::ig::Options> options = trimtab::ig::parseOptions(argc, argv, exitCode);
