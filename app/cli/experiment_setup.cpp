@@ -66,7 +66,7 @@ bool mayWriteTo(const std::string& folder) {
 
 bool mayWriteFile(const std::string& file) {
   if (file.empty()) return true;
-  const auto writable = canWriteIn(std::filesystem::absolute(file).parent_path());
+  const auto writable = canMake(file);
   report(writable.findings());
   return writable.ok();
 }

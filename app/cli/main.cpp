@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "commands.h"
+#include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/units/labelled.h"
 
@@ -39,6 +40,7 @@ int finished(int exitCode) {
 }  // namespace trimtab::cli
 
 int main(int argc, char** argv) {
+  trimtab::failLargeWrites();
   CLI::App app{"Trimtab: tune culling and level of detail of image generators"};
   app.set_version_flag("--version", TRIMTAB_VERSION);
   app.require_subcommand(1);

@@ -232,11 +232,12 @@ Result<Done> writeLeverage(const std::filesystem::path& folder, const Leverage& 
   Findings findings;
   for (const auto& [name, text] : {std::pair{"leverage.json", toJson(leverage)},
                                    {"leverage.csv", toCsv(toReport(leverage).measured)},
-                                   {"leverage.svg", toSvg(leverage)}})
-    if (const auto done = writeAtomically(folder / name, text); !done)
-      findings.insert(findings.end(), done.findings().begin(), done.findings().end());
-  if (!findings.empty()) return findings;
-  return Done{};
+                                   {"leverage.svg", toSvg(leverage)}}) {
+    const auto done = writeAtomically(folder / name, text);
+    findings.insert(findings.end(), done.findings().begin(), done.findings().end());
+  }
+  if (hasError(findings)) return findings;
+  return {Done{}, findings};
 }
 
 }  // namespace trimtab::experiment

@@ -1,14 +1,20 @@
 #include "health.h"
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
+#include <fstream>
+#include <sstream>
 #include <string>
+#include <string_view>
 
+#include "trimtab/preset/file_io.h"
 #include "trimtab/scene/gl_objects.h"
 
 namespace trimtab::ig {
 namespace {
+
+constexpr std::string_view kHeader =
+    "second,memory_kb,handles,threads,gl_objects,gl_buffers,gl_textures,gl_framebuffers,gl_renderbuffers,"
+    "gl_vertex_arrays,gl_queries,gl_programs,gl_shaders,images,terrains,latency_p50_ms,latency_p99_ms\n";
 
 /// The resident memory, kB; 0 if the system does not say it.
 long memoryKb() {
@@ -35,14 +41,9 @@ void writeNumber(std::ostream& out, double value) {
 }  // namespace
 
 Result<Health> Health::open(const std::filesystem::path& file) {
-  Health health(file);
-  health.stream_ << "second,memory_kb,handles,threads,gl_objects,gl_buffers,gl_textures,gl_framebuffers,"
-                    "gl_renderbuffers,gl_vertex_arrays,gl_queries,gl_programs,gl_shaders,images,terrains,"
-                    "latency_p50_ms,latency_p99_ms\n"
-                 << std::flush;
-  if (!health.stream_)
-    return Finding{Severity::error, file.string(), {}, "a file that can be written", std::strerror(errno)};
-  return health;
+  if (auto may = canReplace(file); !may) return may.findings();
+  if (auto may = canMake(file); !may) return may.findings();
+  return Health(file);
 }
 
 void Health::look(double now, std::uint64_t images, std::uint64_t terrains, const Session& session) {
@@ -50,19 +51,36 @@ void Health::look(double now, std::uint64_t images, std::uint64_t terrains, cons
   if (start_ == 0) start_ = now;
   next_ = now + kPeriodS;
   const scene::GlObjects gl = scene::glObjectsOfContext();
-  stream_ << now - start_ << ',' << memoryKb() << ',' << entries("/proc/self/fd") - 1 << ','
-          << entries("/proc/self/task") << ',' << gl.total() << ',' << gl.buffers << ',' << gl.textures << ','
-          << gl.framebuffers << ',' << gl.renderbuffers << ',' << gl.vertexArrays << ',' << gl.queries << ','
-          << gl.programs << ',' << gl.shaders << ',' << images << ',' << terrains;
-  writeNumber(stream_, session.latency().shown.median());
-  writeNumber(stream_, session.latency().shown.quantile(0.99));
-  stream_ << '\n' << std::flush;
+  std::ostringstream row;
+  row << now - start_ << ',' << memoryKb() << ',' << entries("/proc/self/fd") - 1 << ','
+      << entries("/proc/self/task") << ',' << gl.total() << ',' << gl.buffers << ',' << gl.textures << ','
+      << gl.framebuffers << ',' << gl.renderbuffers << ',' << gl.vertexArrays << ',' << gl.queries << ','
+      << gl.programs << ',' << gl.shaders << ',' << images << ',' << terrains;
+  writeNumber(row, session.latency().shown.median());
+  writeNumber(row, session.latency().shown.quantile(0.99));
+  row << '\n';
+  write(row.str());
+}
+
+void Health::write(const std::string& row) {
+  if (hasError(findings_)) return;
+  const auto keep = [this](const auto& result) {
+    findings_.insert(findings_.end(), result.findings().begin(), result.findings().end());
+    return result.ok();
+  };
+  if (file_) {
+    keep(file_->append(row));
+    return;
+  }
+  auto made = Unfinished::file(path_);
+  if (!keep(made) || !keep(made->append(kHeader)) || !keep(made->append(row)) || !keep(made->putInPlace()))
+    return;
+  file_.emplace(std::move(made).value());
 }
 
 Result<Done> Health::finish() {
-  stream_.close();
-  if (stream_) return Done{};
-  return Finding{Severity::error, file_.string(), {}, "a file that can be written", "a full disk"};
+  if (hasError(findings_)) return findings_;
+  return {Done{}, findings_};
 }
 
 }  // namespace trimtab::ig

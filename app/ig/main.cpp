@@ -58,18 +58,6 @@ Result<Done> checkWatch(const Options& options) {
   return Finding{Severity::error, "--watch", {}, "a preset file", options.preset + ", which is not a file"};
 }
 
-/// Told before the first frame, not after the last one.
-Result<Done> checkScreenshot(const Options& options) {
-  if (options.screenshot.empty()) return Done{};
-  const std::filesystem::path folder = std::filesystem::absolute(options.screenshot).parent_path();
-  const Result<Done> writable = canWriteIn(folder);
-  if (writable) return writable;
-  Finding why = writable.findings().front();
-  why.where = options.screenshot.string();
-  why.found = folder.string() + ", " + why.found;
-  return why;
-}
-
 Result<scene::GlReport> initialized(scene::Renderer& renderer) {
   scene::GlReport gl = renderer.initialize();
   if (gl.usable) return gl;
@@ -93,7 +81,8 @@ int runWith(const Options& options) {
   usable &= accepted(feed);
   usable &= accepted(head);
   usable &= accepted(checkWatch(options));
-  usable &= accepted(checkScreenshot(options));
+  // Told before the first frame, not after the last one.
+  if (!options.screenshot.empty()) usable &= accepted(canMake(options.screenshot));
   std::optional<TraceFile> trace;
   if (usable && !options.trace.empty()) {
     Result<TraceFile> opened = TraceFile::open(options.trace);
@@ -162,6 +151,7 @@ int runWith(const Options& options) {
 }  // namespace trimtab::ig
 
 int main(int argc, char** argv) {
+  trimtab::failLargeWrites();
   ::mallopt(M_MMAP_THRESHOLD, trimtab::ig::kReturnedBlock);
   int exitCode = trimtab::ig::kDone;
   const std::optional<trimtab::ig::Options> options = trimtab::ig::parseOptions(argc, argv, exitCode);

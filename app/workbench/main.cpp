@@ -15,6 +15,7 @@
 #include "app/workbench/viewport/gl_setup.h"
 #include "app/workbench/window/main_window.h"
 #include "app/workbench/window/options.h"
+#include "trimtab/preset/file_io.h"
 
 namespace {
 
@@ -53,6 +54,7 @@ bool displayNamed() {
 
 int main(int argc, char** argv) {
   using namespace trimtab::workbench;
+  trimtab::failLargeWrites();
   QStringList arguments;
   for (int i = 0; i < argc; ++i) arguments << QString::fromLocal8Bit(argv[i]);
   const Parsed parsed = parseOptions(arguments);

@@ -54,6 +54,7 @@ std::string machineName(const std::string& glRenderer) {
 
 Result<Done> writeCostModel(const std::filesystem::path& file, const std::string& machine,
                             const CostModel& model) {
+  if (auto may = canReplace(file); !may) return may;
   std::string text = std::string(kHeader) + '\n' + machine + '\n';
   const CostModel::State state = model.state();
   if (Findings findings = unsound(state, file); !findings.empty()) return findings;

@@ -1,13 +1,7 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <system_error>
-#include <utility>
 
 #include "trimtab/host/byte_order.h"
 #include "trimtab/host/flight.h"
@@ -193,6 +187,10 @@ Ipv4Endpoint endpoint(const std::string& text) {
   return {{octet(a), octet(b), octet(c), octet(d)}, static_cast<std::uint16_t>(port)};
 }
 
+std::string asText(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 void appendRecord(std::vector<std::byte>& out, const CapturedDatagram& datagram) {
   constexpr std::size_t kIpHeader = 20, kUdpHeader = 8;
   const std::size_t length = kIpHeader + kUdpHeader + datagram.bytes.size();
@@ -234,7 +232,9 @@ void appendRecord(std::vector<std::byte>& out, const CapturedDatagram& datagram)
   std::copy(datagram.bytes.begin(), datagram.bytes.end(), ip.begin() + kIpHeader + kUdpHeader);
 }
 
-std::vector<std::byte> fileHeader() {
+}  // namespace
+
+std::string pcapHeader() {
   constexpr std::uint32_t kMagic = 0xa1b2c3d4;
   std::vector<std::byte> out(kFileHeader);
   wire::put(out, 0, ByteOrder::little, kMagic);
@@ -242,85 +242,25 @@ std::vector<std::byte> fileHeader() {
   wire::put(out, 6, ByteOrder::little, std::uint16_t{4});
   wire::put(out, 16, ByteOrder::little, kLongestRecord);
   wire::put(out, 20, ByteOrder::little, std::uint32_t{kRaw});
-  return out;
+  return asText(out);
 }
 
-Result<Done> appendRecords(std::vector<std::byte>& out, const std::filesystem::path& file,
-                           std::span<const CapturedDatagram> datagrams) {
+Result<std::string> pcapRecords(std::span<const CapturedDatagram> datagrams, const std::string& where) {
   constexpr std::size_t kLongestPayload = 65507;
+  std::vector<std::byte> out;
   for (const CapturedDatagram& datagram : datagrams) {
     if (datagram.bytes.size() > kLongestPayload)
-      return Finding{Severity::error, file.string(), "datagram", "at most 65507 bytes",
+      return Finding{Severity::error, where, "datagram", "at most 65507 bytes",
                      std::to_string(datagram.bytes.size())};
     appendRecord(out, datagram);
   }
-  return Done{};
+  return asText(out);
 }
-
-Finding unwritable(const std::filesystem::path& file, int error) {
-  return {Severity::error, file.string(), "", "room and permission to write it",
-          std::generic_category().message(error)};
-}
-
-/// Returns 0 or the error number.
-int writeAll(int handle, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(handle, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return count < 0 ? errno : ENOSPC;
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-  }
-  return 0;
-}
-
-}  // namespace
 
 Result<Done> writePcap(const std::filesystem::path& file, std::span<const CapturedDatagram> datagrams) {
-  std::vector<std::byte> out = fileHeader();
-  if (auto done = appendRecords(out, file, datagrams); !done) return done;
-  return writeAtomically(file, {reinterpret_cast<const char*>(out.data()), out.size()});
-}
-
-Result<PcapWriter> PcapWriter::open(const std::filesystem::path& file) {
-  const int handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (handle < 0) return unwritable(file, errno);
-  PcapWriter writer(file, handle);
-  const std::vector<std::byte> header = fileHeader();
-  if (const int error = writeAll(handle, header); error != 0) return unwritable(file, error);
-  writer.bytes_ = header.size();
-  return writer;
-}
-
-PcapWriter::PcapWriter(PcapWriter&& other) noexcept
-    : file_(std::move(other.file_)),
-      handle_(std::exchange(other.handle_, -1)),
-      bytes_(other.bytes_),
-      size_(other.size_) {}
-
-PcapWriter::~PcapWriter() {
-  if (handle_ >= 0) ::close(handle_);
-}
-
-Result<Done> PcapWriter::add(std::span<const CapturedDatagram> datagrams) {
-  std::vector<std::byte> out;
-  if (auto done = appendRecords(out, file_, datagrams); !done) return done;
-  if (const int error = writeAll(handle_, out); error != 0) {
-    // A part of a record would be read as one that was cut short.
-    const auto end = static_cast<off_t>(bytes_);
-    if (::ftruncate(handle_, end) == 0) static_cast<void>(::lseek(handle_, end, SEEK_SET));
-    return unwritable(file_, error);
-  }
-  bytes_ += out.size();
-  size_ += datagrams.size();
-  return Done{};
-}
-
-Result<Done> PcapWriter::close() {
-  const bool good = ::fsync(handle_) == 0 || errno == EINVAL;
-  const int error = errno;
-  const bool closed = ::close(std::exchange(handle_, -1)) == 0;
-  if (good && closed) return Done{};
-  return unwritable(file_, good ? errno : error);
+  const Result<std::string> records = pcapRecords(datagrams, file.string());
+  if (!records) return records.findings();
+  return writeAtomically(file, pcapHeader() + *records);
 }
 
 }  // namespace trimtab

@@ -133,30 +133,6 @@ void appendTraceRow(std::string& text, const TraceRow& row) {
   text += '\n';
 }
 
-TraceWriter::TraceWriter(std::filesystem::path file, std::ofstream stream)
-    : file_(std::move(file)), stream_(std::move(stream)) {}
-
-Result<TraceWriter> TraceWriter::open(const std::filesystem::path& file) {
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  if (!stream)
-    return Finding{Severity::error, file.string(), "", "a file that can be written", "it cannot be opened"};
-  stream << traceHeader() << '\n';
-  return TraceWriter(file, std::move(stream));
-}
-
-void TraceWriter::write(const TraceRow& row) {
-  line_.clear();
-  appendTraceRow(line_, row);
-  stream_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
-  stream_.flush();
-}
-
-Result<Done> TraceWriter::close() {
-  stream_.close();
-  if (stream_) return Done{};
-  return Finding{Severity::error, file_.string(), "", "room for the whole trace", "writing failed"};
-}
-
 bool isTrace(std::string_view text) {
   const std::vector<std::string_view> names = cellsOf(takeLine(text));
   const auto has = [&names](std::string_view name) {

@@ -1,5 +1,6 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include "ig_support.h"
 
@@ -165,16 +166,60 @@ TEST_F(IgInputs, noDisplayAndNoOpenGlAreSaidClearly) {
   EXPECT_NE(noGl.err.find("error: "), std::string::npos) << noGl.err;
 }
 
+/// A limit on the size of files stands in for a full disk.
 TEST_F(IgInputs, aFullDiskIsSaid) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
-  // The part is a link to a device that is always full.
-  std::filesystem::create_symlink("/dev/full", dir_ / "t.csv.part");
+  test::writeFile(dir_ / "flight.csv", flightCsv(test::weavingFlight(100)));
+  Arguments arguments = good_;
+  arguments.more += " --trace " + (dir_ / "t.csv").string();
+  const test::Ran ran = run(arguments, "ulimit -f 60;");
+  EXPECT_EQ(ran.exitCode, 1) << ran.err;
+  EXPECT_NE(ran.err.find("t.csv.part: expected room for more rows, found File too large"), std::string::npos)
+      << ran.err;
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "t.csv"));
+}
+
+TEST_F(IgInputs, aForeignFileBesideTheTraceStaysAsItIs) {
+  const std::string notes = file("t.csv.part", "notes without an end of line");
   Arguments arguments = good_;
   arguments.more += " --trace " + (dir_ / "t.csv").string();
   const test::Ran ran = run(arguments);
   EXPECT_EQ(ran.exitCode, 1) << ran.err;
-  EXPECT_NE(ran.err.find("t.csv"), std::string::npos) << ran.err;
-  EXPECT_FALSE(std::filesystem::exists(dir_ / "t.csv"));
+  EXPECT_NE(ran.err.find(notes + ": "), std::string::npos) << ran.err;
+  EXPECT_EQ(test::readFile(notes), "notes without an end of line");
+}
+
+TEST_F(IgInputs, anOldHealthFileStaysUntilThereIsARow) {
+  const std::string health = file("h.csv", "of the flight before");
+  Arguments arguments = good_;
+  arguments.more += " --health " + health;
+  EXPECT_EQ(run(arguments, "env __EGL_VENDOR_LIBRARY_FILENAMES=/nowhere.json").exitCode, 1);
+  EXPECT_EQ(test::readFile(health), "of the flight before");
+  const test::Ran ran = run(arguments);
+  EXPECT_EQ(ran.exitCode, 0) << ran.err;
+  EXPECT_EQ(test::readFile(health).find("second,memory_kb,"), 0u) << test::readFile(health);
+  arguments.more += "/h.csv";
+  EXPECT_EQ(run(arguments).exitCode, 1) << "no folder";
+  std::filesystem::remove(health);
+  ASSERT_EQ(::mkfifo(health.c_str(), 0600), 0);
+  arguments.more = good_.more + " --health " + health;
+  EXPECT_EQ(run(arguments, "timeout 60 env").exitCode, 1) << "a pipe is not waited for";
+}
+
+TEST_F(IgInputs, aPipeInPlaceOfTheCostModelDoesNotHoldUpTheEnd) {
+  test::writeFile(dir_ / "flight.csv", flightCsv(test::weavingFlight(150)));
+  Arguments arguments = good_;
+  arguments.preset =
+      file("hold.json", test::exported(test::edited([](TuningParameters& p) { p.hold.enabled = true; })));
+  ASSERT_EQ(run(arguments).exitCode, 0);
+  const auto names = test::namesIn(dir_ / "cache/trimtab");
+  ASSERT_EQ(names.size(), 1u);
+  const std::filesystem::path model = dir_ / "cache/trimtab" / names.front();
+  std::filesystem::remove(model);
+  ASSERT_EQ(::mkfifo(model.c_str(), 0600), 0);
+  const test::Ran ran = run(arguments, "timeout 120 env");
+  EXPECT_EQ(ran.exitCode, 0) << ran.err;
+  EXPECT_NE(ran.err.find(names.front() + ": expected a file's name, found a pipe"), std::string::npos)
+      << ran.err;
 }
 
 }  // namespace

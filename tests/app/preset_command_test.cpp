@@ -223,6 +223,44 @@ TEST(PresetCommand, waitsForNoPipeThatNobodyFills) {
   }
 }
 
+TEST(PresetCommand, leavesWhatOthersPutBesideAnExport) {
+  const test::ScratchDir dir;
+  const std::string backup = (dir / ".e.json.trimtab-backup").string();
+  test::writeFile(backup, "mine");
+  for (const char* turn : {"new", "replaced"}) {
+    const Ran ran = preset("export default -o " + (dir / "e.json").string());
+    EXPECT_EQ(ran.exitCode, 0) << turn << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr("warning: " + backup)) << turn;
+    EXPECT_EQ(test::readFile(backup), "mine") << turn;
+  }
+  EXPECT_EQ(test::namesIn(dir.path()).size(), 2u);
+}
+
+TEST(PresetCommand, exportsToNoPipeThatNobodyReads) {
+  const test::ScratchDir dir;
+  const std::string pipe = (dir / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string command =
+      "timeout 20 " + test::program("trimtab-cli").string() + " preset export default -o " + pipe;
+  const Ran alone = test::run(command);
+  EXPECT_EQ(alone.exitCode, 1);
+  EXPECT_THAT(alone.err, HasSubstr(pipe + ": expected a pipe that somebody reads"));
+  const Ran read = test::run("exec 3<>" + pipe + "; " + command + " && head -c 1 <&3");
+  EXPECT_EQ(read.exitCode, 0) << read.err;
+  EXPECT_EQ(read.out, "{");
+}
+
+/// `ulimit -f` has the system end a program by a signal, unless it ignores that.
+TEST(PresetCommand, saysWhenAFileMayNotBeSoLarge) {
+  const test::ScratchDir dir;
+  test::writeFile(dir / "e.json", "old");
+  const Ran ran = test::run("ulimit -f 8; " + test::program("trimtab-cli").string() +
+                            " preset export default -o " + (dir / "e.json").string());
+  EXPECT_EQ(ran.exitCode, 1);
+  EXPECT_THAT(ran.err, HasSubstr("File too large"));
+  EXPECT_EQ(test::readFile(dir / "e.json"), "old");
+}
+
 TEST(TrimtabCli, waitsForNoPipeAsTerrainOrResults) {
   const test::ScratchDir dir;
   const std::string pipe = (dir / "pipe").string();

@@ -312,5 +312,21 @@ TEST_F(WorkbenchFiles, bakingCanBeCancelledAndTheOldTerrainStays) {
   EXPECT_TRUE(w().controllers().terrain->database() != nullptr);
 }
 
+TEST(WorkbenchProgram, leavesWhatOthersPutBesideAnExportAndSaysWhenItMayNotBeSoLarge) {
+  ScratchDir dir;
+  const std::filesystem::path backup = dir / ".e.json.trimtab-backup", exported = dir / "e.json";
+  writeFile(backup, "mine");
+  const std::string command = program("trimtab").string() + " --size 900x700 --screenshot " +
+                              (dir / "w.png").string() + " --after-s 0.1 --export " + exported.string();
+  EXPECT_EQ(run(command).exitCode, 0);
+  EXPECT_EQ(readFile(backup), "mine");
+  EXPECT_FALSE(readFile(exported).empty());
+  writeFile(exported, "old");
+  const Ran ran = run("ulimit -f 8; " + command);
+  EXPECT_EQ(ran.exitCode, 1) << "it ends by itself, not by a signal";
+  EXPECT_NE(ran.err.find("File too large"), std::string::npos) << ran.err;
+  EXPECT_EQ(readFile(exported), "old");
+}
+
 }  // namespace
 }  // namespace trimtab::test

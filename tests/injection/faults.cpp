@@ -23,7 +23,7 @@ namespace {
 
 std::string watched;
 std::atomic<long> count{-1}, disturbed{-1};
-std::atomic<bool> done{false};
+std::atomic<bool> done{false}, unnamed{true};
 std::atomic<Way> wanted{Way::killed};
 
 bool isWatched(std::string_view path) {
@@ -77,6 +77,10 @@ T call(const File& file, T failure, const Work& work) {
 }
 
 int opened(int folder, const char* path, int flags, mode_t mode) {
+  if ((flags & O_TMPFILE) == O_TMPFILE && !unnamed) {
+    errno = EOPNOTSUPP;
+    return -1;
+  }
   return call(std::string_view(path), -1,
               [&](const Call&) { return ::syscall(SYS_openat, folder, path, flags, mode); });
 }
@@ -95,6 +99,9 @@ constexpr std::string_view kAnySocket = kSockets;
 const char* nameOf(Way way) {
   constexpr const char* kNames[] = {"ENOSPC", "EIO", "EACCES", "EINTR", "short", "killed"};
   return kNames[static_cast<int>(way)];
+}
+void haveUnnamedFiles(bool have) {
+  unnamed = have;
 }
 void watch(const std::filesystem::path& folder) {
   watched = folder.string();
@@ -191,6 +198,10 @@ int rename(const char* from, const char* to) noexcept {
 int renameat2(int fromFolder, const char* from, int toFolder, const char* to, unsigned flags) noexcept {
   return call(std::string_view(to), -1,
               [&](const Call&) { return ::syscall(SYS_renameat2, fromFolder, from, toFolder, to, flags); });
+}
+int linkat(int fromFolder, const char* from, int toFolder, const char* to, int flags) noexcept {
+  return call(std::string_view(to), -1,
+              [&](const Call&) { return ::syscall(SYS_linkat, fromFolder, from, toFolder, to, flags); });
 }
 int mkdir(const char* path, mode_t mode) noexcept {
   return call(std::string_view(path), -1, [&](const Call&) { return ::syscall(SYS_mkdir, path, mode); });

@@ -19,6 +19,8 @@ inline constexpr Way kWays[] = {Way::no_space,    Way::io_error,    Way::no_perm
                                 Way::interrupted, Way::short_count, Way::killed};
 const char* nameOf(Way way);
 
+/// Whether the file system has files without a name (O_TMPFILE); some have none.
+void haveUnnamedFiles(bool have);
 /// From now on calls on this folder and what is in it are counted.
 void watch(const std::filesystem::path& folder);
 /// In place of a folder: from now on calls on sockets are counted, and waits for them.

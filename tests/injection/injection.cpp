@@ -137,7 +137,10 @@ void Injection::writes(const char* name, WriteCase of) {
     of.begin(folder);
   };
   const auto run = [&](long call, Way way) {
-    return runDisturbed(folder, call, way, [&](std::string&) { return of.work(folder); });
+    return runDisturbed(folder, call, way, [&](std::string&) {
+      faults::haveUnnamedFiles(of.unnamed);
+      return of.work(folder);
+    });
   };
   begin();
   const Tree old = treeOf(folder);
@@ -158,7 +161,9 @@ void Injection::writes(const char* name, WriteCase of) {
       const Tree disturbed = treeOf(folder);
       const std::string kept = of.between ? of.between(folder) : std::string();
       const int again = run(-1, Way::killed).code;
-      const Tree end = treeOf(folder);
+      Tree end = treeOf(folder);
+      if (!of.unnamed)
+        std::erase_if(end, [](const auto& f) { return f.first.ends_with(".mark") && f.second.empty(); });
       std::string fault;
       if (code != kDone && code != kRefused && !(way == Way::killed && code == 128 + SIGKILL))
         fault = "it ended with " + std::to_string(code);

@@ -34,6 +34,9 @@ struct WriteCase {
   /// The work makes several files, one after the other, and goes on where it was stopped: each of them is the
   /// old one or the new one.
   bool inSteps = false;
+  /// The file system has files without a name. Without them a mark is empty for a moment, and stays when the
+  /// program is killed in it.
+  bool unnamed = true;
 };
 
 struct ReadCase {

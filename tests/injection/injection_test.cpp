@@ -17,13 +17,22 @@ TEST_F(Injection, ofASaveOfAPreset) {
   Preset preset;
   preset.name = "new";
   preset.parameters.lod.scale = Ratio{2};
-  writes("preset", {[](const fs::path& folder) { test::writeFile(folder / "p.json", "{\"the old\": 1}"); },
-                    [&](const fs::path& folder) {
-                      const auto text = presetText(preset);
-                      if (!text) return text.findings();
-                      return writeAtomically(folder / "p.json", *text).findings();
-                    },
-                    [](const std::string& name) { return name.starts_with(".p.json.trimtab-"); }});
+  for (const bool unnamed : {true, false})
+    for (const bool isThere : {true, false})
+      writes((std::string(isThere ? "preset" : "new preset") + (unnamed ? "" : ", without unnamed files"))
+                 .c_str(),
+             {.begin =
+                  [&](const fs::path& folder) {
+                    if (isThere) test::writeFile(folder / "p.json", "{\"the old\": 1}");
+                  },
+              .work = [&](const fs::path& folder) -> Findings {
+                const auto text = presetText(preset);
+                if (!text) return text.findings();
+                const auto done = writeAtomically(folder / "p.json", *text);
+                return done ? Findings{} : done.findings();
+              },
+              .mayStay = [](const std::string& name) { return name.starts_with(".p.json.trimtab-"); },
+              .unnamed = unnamed});
 }
 
 class BakeInjection : public Injection {
@@ -72,7 +81,7 @@ TEST_F(Injection, ofAnExportOfScenery) {
             const auto done = terrain::exportScenery(**trees, {0, folder / "out", {}}, "trees");
             return done ? Findings{} : done.findings();
           },
-          .mayStay = [](const std::string& name) { return name.starts_with(".out.part-"); },
+          .mayStay = [](const std::string& name) { return name.starts_with(".out.trimtab-"); },
           // A folder that holds something is refused, so a whole export is put away.
           .between =
               [](const fs::path& folder) {

@@ -37,9 +37,8 @@ TEST_F(Injection, ofReadingAPreset) {
 TEST_F(Injection, ofReadingARecordingAndATrace) {
   reads("reading a recording",
         {[](const fs::path& folder) {
-           auto pcap = PcapWriter::open(folder / "r.pcap");
            const CapturedDatagram one{1, "127.0.0.1:1", "127.0.0.1:2", std::vector<std::byte>(100)};
-           EXPECT_TRUE(pcap->add({&one, 1}) && pcap->close());
+           EXPECT_TRUE(writePcap(folder / "r.pcap", {&one, 1}));
          },
          [](const fs::path& folder) -> Result<std::string> {
            const auto read = readPcap(folder / "r.pcap");

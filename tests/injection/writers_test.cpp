@@ -126,18 +126,20 @@ TEST_F(Injection, ofACostModel) {
 }
 
 TEST_F(Injection, ofPages) {
-  writes("pages",
-         {.begin = [](const fs::path& folder) { test::writeFile(folder / "p.pages", "the old one"); },
-          .work = [](const fs::path& folder) -> Findings {
-            auto writer = terrain::PageFileWriter::create(folder / "p.pages");
-            if (!writer) return writer.findings();
-            for (std::uint64_t key = 0; key < 3; ++key)
-              if (auto done = (*writer)->add(key, std::vector<std::byte>(100 * key)); !done)
-                return done.findings();
-            const auto done = (*writer)->finish();
-            return done ? Findings{} : done.findings();
-          },
-          .mayStay = [](const std::string& file) { return file.starts_with(".p.pages.part-"); }});
+  for (const bool unnamed : {true, false})
+    writes(unnamed ? "pages" : "pages, without unnamed files",
+           {.begin = [](const fs::path& folder) { test::writeFile(folder / "p.pages", "the old one"); },
+            .work = [](const fs::path& folder) -> Findings {
+              auto writer = terrain::PageFileWriter::create(folder / "p.pages");
+              if (!writer) return writer.findings();
+              for (std::uint64_t key = 0; key < 3; ++key)
+                if (auto done = (*writer)->add(key, std::vector<std::byte>(100 * key)); !done)
+                  return done.findings();
+              const auto done = (*writer)->finish();
+              return done ? Findings{} : done.findings();
+            },
+            .mayStay = [](const std::string& file) { return file.starts_with(".p.pages.trimtab-"); },
+            .unnamed = unnamed});
 }
 
 }  // namespace

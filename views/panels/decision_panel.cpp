@@ -7,7 +7,6 @@
 #include <QClipboard>
 #include <QHeaderView>
 #include <QLabel>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QScrollBar>
 #include <QTableView>
@@ -18,6 +17,7 @@
 #include "trimtab/decision/decide.h"
 #include "views/controls/ask_csv_file.h"
 #include "views/controls/bar_list.h"
+#include "views/controls/tell_findings.h"
 #include "views/editors/rule_edit.h"
 #include "views/model/depth_map_reason.h"
 #include "views/model/theme.h"
@@ -197,8 +197,7 @@ Findings DecisionPanel::saveLog(const QString& file) const {
 void DecisionPanel::askAndSave() {
   const QString file = askCsvFile(this, tr("Save Decision Log"), QStringLiteral("decisions.csv"));
   if (file.isEmpty()) return;
-  if (const Findings findings = saveLog(file); !findings.empty())
-    QMessageBox::warning(this, tr("The log was not saved"), QString::fromStdString(toString(findings)));
+  tellFindings(this, tr("The log was not saved"), tr("The log was saved"), saveLog(file));
 }
 
 }  // namespace trimtab::views

@@ -9,7 +9,6 @@
 #include <QLabel>
 #include <QListWidget>
 #include <QMenu>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
 #include <QScrollArea>
@@ -23,6 +22,7 @@
 #include "frame_page.h"
 #include "plot_values.h"
 #include "views/controls/ask_csv_file.h"
+#include "views/controls/tell_findings.h"
 #include "views/model/theme.h"
 #include "views/plots/plot_picture.h"
 #include "views/plots/time_plot.h"
@@ -403,8 +403,7 @@ Findings PlotsPanel::savePicture(const QString& file) const {
 void PlotsPanel::askAndSave() {
   const QString file = askCsvFile(this, tr("Save Shown Range"), QStringLiteral("frames.csv"));
   if (file.isEmpty()) return;
-  if (const Findings findings = saveCsv(file); !findings.empty())
-    QMessageBox::warning(this, tr("The frames were not saved"), QString::fromStdString(toString(findings)));
+  tellFindings(this, tr("The frames were not saved"), tr("The frames were saved"), saveCsv(file));
 }
 
 void PlotsPanel::askAndSavePicture() {
@@ -417,8 +416,8 @@ void PlotsPanel::askAndSavePicture() {
                                                                     : QStringLiteral("png"));
   });
   if (dialog.exec() != QDialog::Accepted) return;
-  if (const Findings findings = savePicture(dialog.selectedFiles().constFirst()); !findings.empty())
-    QMessageBox::warning(this, tr("The picture was not saved"), QString::fromStdString(toString(findings)));
+  tellFindings(this, tr("The picture was not saved"), tr("The picture was saved"),
+               savePicture(dialog.selectedFiles().constFirst()));
 }
 
 void PlotsPanel::keepIn(QSettings& settings) const {

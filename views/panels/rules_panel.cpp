@@ -59,8 +59,10 @@ Findings RulesPanel::exportFile(const QString& file) const {
   if (!format) return {unknownRuleEnding(file)};
   const Result<std::string> text = ruleFileText(*draft_.active(), draft_.preset().name, *format);
   if (!text) return text.findings();
-  if (const auto written = writeAtomically(file.toStdString(), *text); !written) return written.findings();
-  return text.findings();
+  const auto written = writeAtomically(file.toStdString(), *text);
+  Findings findings = written.findings();
+  if (written) findings.insert(findings.end(), text.findings().begin(), text.findings().end());
+  return findings;
 }
 
 void RulesPanel::askAndImport() {

@@ -58,8 +58,10 @@ Findings writePolicyFile(const QString& file, const Policy& policy, const std::s
   if (language == nullptr) return {unknownRuleEnding(file)};
   const Result<std::string> text = language->write(policy, name);
   if (!text) return text.findings();
-  if (const auto written = writeAtomically(file.toStdString(), *text); !written) return written.findings();
-  return text.findings();
+  const auto written = writeAtomically(file.toStdString(), *text);
+  Findings findings = written.findings();
+  if (written) findings.insert(findings.end(), text.findings().begin(), text.findings().end());
+  return findings;
 }
 
 }  // namespace trimtab::views

@@ -160,7 +160,7 @@ Result<Done> Document::save(const QString& file) {
   draft_.markSaved();
   dropCopy();
   become(absolute);
-  return Done{};
+  return written;
 }
 
 void Document::become(const QString& file) {

@@ -81,6 +81,7 @@ bool DocumentController::saveTo(const QString& file) {
     at_.messages.add(tr("The preset cannot be saved: %1").arg(file), saved.findings());
     return false;
   }
+  if (!saved.findings().empty()) at_.messages.add(tr("Saved to %1").arg(file), saved.findings());
   notices_.withdraw(kDiskNotice);
   rememberRecent(QStringLiteral("preset"), document_.file());
   emit this->saved(document_.file());
@@ -133,11 +134,12 @@ bool DocumentController::exportTo(const QString& file, ExportFormat format, cons
       document_.file().isEmpty() ? document_.title() : QFileInfo(document_.file()).completeBaseName();
   const std::string text = exportText(*validate(parameters), name.toStdString(), provenance, format);
   const QString absolute = QFileInfo(file).absoluteFilePath();
-  if (const Result<Done> written = writeAtomically(absolute.toStdString(), text); !written) {
+  const Result<Done> written = writeAtomically(absolute.toStdString(), text);
+  if (!written) {
     at_.messages.add(tr("The export cannot be written: %1").arg(file), written.findings());
     return false;
   }
-  at_.messages.note(tr("Exported to %1").arg(absolute));
+  at_.messages.add(tr("Exported to %1").arg(absolute), written.findings());
   emit exported(absolute);
   return true;
 }

@@ -306,7 +306,9 @@ void ExperimentsDock::save() {
   const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder for tables and plots"));
   if (folder.isEmpty() || !report_) return;
   const auto written = experiment::writeReport(folder.toStdString(), *report_);
-  if (!written.findings().empty()) emit refused(tr("The results cannot be saved"), written.findings());
+  if (!written.findings().empty())
+    emit refused(written ? tr("The results are saved") : tr("The results cannot be saved"),
+                 written.findings());
   if (written) status_->setText(tr("Saved to %1").arg(QDir::toNativeSeparators(folder)));
 }
 

@@ -33,6 +33,7 @@
 #include "plots_link.h"
 #include "session_keeper.h"
 #include "status_strip.h"
+#include "trimtab/units/labelled.h"
 #include "views/panels/budget_strip.h"
 #include "views/panels/plots_panel.h"
 #include "views/panels/rules_panel.h"
@@ -401,7 +402,9 @@ void MainWindow::takeScreenshotSoon() {
 }
 
 void MainWindow::takeScreenshot() {
-  bool good = views::writePixmap(grab(), options_.screenshot).empty();
+  const Findings findings = views::writePixmap(grab(), options_.screenshot);
+  bool good = !hasError(findings);
+  std::fputs(labelled(findings).c_str(), stderr);
   if (!good)
     std::fprintf(stderr, "trimtab: the screenshot cannot be saved: %s\n", qPrintable(options_.screenshot));
   if (!options_.exportFile.isEmpty())

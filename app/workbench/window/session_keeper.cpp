@@ -121,13 +121,14 @@ bool SessionKeeper::open(const QString& file) {
 }
 
 bool SessionKeeper::saveTo(const QString& file) {
-  if (const Result<Done> written = writeSession(file, current()); !written) {
+  const Result<Done> written = writeSession(file, current());
+  if (!written) {
     at_.messages.add(tr("The session cannot be saved: %1").arg(file), written.findings());
     return false;
   }
   file_ = QFileInfo(file).absoluteFilePath();
   rememberRecent(QLatin1String(kRecent), file_);
-  at_.messages.note(tr("The session is saved: %1").arg(file_));
+  at_.messages.add(tr("The session is saved: %1").arg(file_), written.findings());
   if (at_.draft.isDirty())
     at_.messages.note(
         tr("The session holds the unsaved edits of the preset; Ctrl+S writes them to its file"));

@@ -79,7 +79,8 @@ void WorkspaceBar::askExport() {
   dialog.setDefaultSuffix(QStringLiteral("workspace.json"));
   if (dialog.exec() != QDialog::Accepted) return;
   if (const Findings findings = workspaces_.writeTo(dialog.selectedFiles().first()); !findings.empty())
-    messages_.add(tr("The workspace was not written"), findings);
+    messages_.add(hasError(findings) ? tr("The workspace was not written") : tr("The workspace was written"),
+                  findings);
 }
 
 void WorkspaceBar::askImport() {

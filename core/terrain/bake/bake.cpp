@@ -92,7 +92,7 @@ class Job {
     } else {
       if (auto made = makePart(0, 1, true); !made) return made.findings();
     }
-    if (auto made = finish(join); !made) return made.findings();
+    if (auto made = kept(finish(join)); !made) return made.findings();
     auto database = Database::open(output_);
     if (!database) return database;
     return Result<std::shared_ptr<const Database>>(*database, findings_);
@@ -116,6 +116,10 @@ class Job {
     };
   }
   void keep(const Findings& findings) { findings_.insert(findings_.end(), findings.begin(), findings.end()); }
+  Result<Done> kept(Result<Done> done) {
+    if (done) keep(done.findings());
+    return done;
+  }
 
   Result<Done> mayTakePlace() const {
     if (mayReplace(output_)) return Done{};
@@ -133,6 +137,7 @@ class Job {
     recipe_ = recipeOf(options_, *files);
     auto work = WorkFolder::open(output_, stampedRecipe(options_, *files), use);
     if (!work) return work.findings();
+    keep(work.findings());
     work_ = std::move(work).value();
     // Asked before other parts of the same bake come to write there.
     goesOn_ = work_->resumed() && !work_->journal().empty();
@@ -195,7 +200,7 @@ class Job {
                          ", left as they are: bake these parts of the sources as they were, or remove the "
                          "folder and bake all parts again");
     if (!others.empty())
-      if (auto emptied = work_->beginAnew(); !emptied) return emptied;
+      if (auto emptied = kept(work_->beginAnew()); !emptied) return emptied;
     if (goesOn_ && work_->resumed())
       findings_.push_back({Severity::note, output_.string(), "", "", "goes on from an interrupted bake"});
     return Done{};
@@ -360,11 +365,7 @@ class Job {
 
   Result<Done> finish(bool join) {
     std::error_code error;
-    // What an interrupted end left.
-    for (const auto& entry : fs::directory_iterator(work_->database(), error)) {
-      const std::string name = entry.path().filename().string();
-      if (name != kHeightsName && name != kHeightSumsName) fs::remove_all(entry.path(), error);
-    }
+    if (auto cleared = kept(work_->clearDatabase()); !cleared) return cleared;
     if (auto done = patches_->join(work_->database() / kPatchesName,
                                    stage(scenery_ ? 0.25 : 0.9, scenery_ ? 0.25 : 0.9));
         !done)

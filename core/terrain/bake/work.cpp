@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -15,9 +17,11 @@
 #include <sstream>
 #include <thread>
 
+#include "heights.h"
 #include "source.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/preset/unfinished.h"
 #include "trimtab/terrain/format/store.h"
 
 namespace trimtab::terrain {
@@ -30,11 +34,10 @@ Finding wrong(const fs::path& where, std::string expected, std::string found) {
   return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
 }
 
+/// Empty if it cannot be read; a pipe of its name is not waited for.
 std::string textOf(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return in ? text.str() : std::string();
+  const Result<std::string> text = readWhole(file, kLargestRecording);
+  return text ? *text : std::string();
 }
 
 std::string thisMachine() {
@@ -46,7 +49,7 @@ std::string thisMachine() {
 bool livesAs(pid_t process, const std::string& program) {
   if (::kill(process, 0) != 0 && errno == ESRCH) return false;
   constexpr std::size_t kMostOfName = 15;  // that the system keeps
-  std::istringstream name(textOf("/proc/" + std::to_string(process) + "/comm"));
+  std::ifstream name("/proc/" + std::to_string(process) + "/comm");
   std::string is;
   return !std::getline(name, is) || is == program.substr(0, kMostOfName);
 }
@@ -87,14 +90,39 @@ Finding otherArithmetic(const fs::path& path) {
                "those of another machine, left as they are: bake all parts on machines alike");
 }
 
-/// All but what is named.
-std::error_code empty(const fs::path& folder, const std::set<fs::path>& but) {
+/// Whether a bake makes this in its work folder.
+bool isOfABake(const fs::path& inFolder) {
+  constexpr std::array<std::string_view, 6> kFiles = {"lock",         "heights.lock", "recipe.json",
+                                                      "recipe.spent", "journal",      kVoidsName};
+  const std::string folder = inFolder.parent_path().string(), name = inFolder.filename().string();
+  if (folder == "database" || folder == "old") return isDatabaseFile(name);
+  if (folder == "pieces") return name.ends_with(".pages");
+  return folder.empty() && (name == "database" || name == "old" || name == "pieces" ||
+                            std::find(kFiles.begin(), kFiles.end(), name) != kFiles.end());
+}
+
+Result<Done> empty(const fs::path& folder, const std::set<std::string>& but) {
   std::error_code error;
   // What says that the rest is good goes first.
   fs::remove(folder / "recipe.json", error);
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (!but.contains(entry.path().filename())) fs::remove_all(entry.path(), error);
-  return error;
+  return removeOwn(folder, isOfABake, but);
+}
+
+Finding notOurs(const fs::path& path) {
+  return wrong(path, "nothing, or the work of a bake that was interrupted",
+               "something else, left as it is: give it another name, or name another output");
+}
+
+/// Makes the folder, and marks it while there is nothing else in it.
+Result<Done> makeMarked(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (fs::exists(path, error) && !fs::is_directory(path, error)) return notOurs(path);
+  if (error) return wrong(path, "a folder that can be written", error.message());
+  if (fs::is_empty(path, error))
+    if (auto marked = markFolder(path); !marked) return marked;
+  if (!isMarked(path)) return notOurs(path);
+  return Done{};
 }
 
 Result<Done> makeFolders(const fs::path& path) {
@@ -155,11 +183,17 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
     return lock || refused == EWOULDBLOCK || refused == ENOENT;
   };
   const auto noLock = [&] { return wrong(lockFile, "a file that can be locked", std::strerror(refused)); };
+  Findings others;
+  constexpr auto kTurn = std::chrono::milliseconds(20);
   // Parts that begin at once take turns to look at the folder.
   for (int turn = 0; turn < 100; ++turn) {
     std::error_code error;
-    fs::create_directories(path, error);
-    if (error) return wrong(path, "a folder that can be written", error.message());
+    // Another process may be about to mark it, or have it gone again for a moment.
+    if (auto made = makeMarked(path); !made) {
+      if (turn >= 5) return made.findings();
+      std::this_thread::sleep_for(kTurn);
+      continue;
+    }
     if (!takeLock(false)) return noLock();
     if (lock) {
       const std::string there = textOf(path / "recipe.json");
@@ -173,46 +207,46 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
         if (fs::exists(path / "old", error) && !fs::exists(output, error))
           fs::rename(path / "old", output, error);
         if (error) return wrong(path / "old", "a database that can go back to its place", error.message());
-        error = empty(path, {"lock"});
-        if (error) return wrong(path, "a folder that can be emptied", error.message());
+        const auto emptied = empty(path, {"lock"});
+        if (!emptied) return emptied.findings();
+        others = emptied.findings();
         if (auto written = writeAtomically(path / "recipe.json", recipe); !written) return written.findings();
       }
       if (auto made = makeFolders(path); !made) return made.findings();
-      if (!shared) return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), same));
+      if (!shared) return {std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), same)), others};
       lock.reset();
     }
     if (shared) {
       if (!takeLock(true)) return noLock();
       if (lock && textOf(path / "recipe.json") == recipe)
-        return std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), true));
+        return {std::unique_ptr<WorkFolder>(new WorkFolder(path, std::move(lock), true)), others};
       if (lock && sameButForArithmetic(textOf(path / "recipe.json"), recipe)) return otherArithmetic(path);
       if (lock) return otherBake(output, lockFile, " with other sources or options");
     } else if (turn >= 5) {
       break;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::this_thread::sleep_for(kTurn);
   }
   return refused == ENOENT ? noLock() : otherBake(output, lockFile, "");
 }
 
 WorkFolder::~WorkFolder() {
-  std::error_code ignored;
   if (!lock_ || !journal().empty()) return;
   // Others may be at work on their parts.
   lock_.reset();
   const auto alone = FileLock::tryLock(path_ / "lock", false);
-  if (alone && journal().empty()) fs::remove_all(path_, ignored);
+  if (alone && journal().empty()) static_cast<void>(removeOwn(path_, isOfABake));
 }
 
 Result<Done> WorkFolder::beginAnew() {
   const std::string recipe = textOf(path_ / "recipe.json");
   // What was the output before, where it could not go back, is none of this work.
-  if (const std::error_code error = empty(path_, {"lock", "heights.lock", "old"}))
-    return wrong(path_, "a folder that can be emptied", error.message());
+  const auto emptied = empty(path_, {"lock", "heights.lock", "old"});
+  if (!emptied) return emptied;
   if (auto made = makeFolders(path_); !made) return made;
   if (auto written = writeAtomically(path_ / "recipe.json", recipe); !written) return written.findings();
   resumed_ = false;
-  return Done{};
+  return emptied;
 }
 
 Finding WorkFolder::kept() const {
@@ -226,9 +260,14 @@ Finding WorkFolder::kept() const {
           std::to_string(bytes / kMB + 1) + " MB of finished work; remove the folder to free the disk"};
 }
 
+Result<Done> WorkFolder::clearDatabase() const {
+  const IsOwn isFile = [](const fs::path& file) { return isDatabaseFile(file.string()); };
+  return removeOwn(database(), isFile, {kHeightsName, kHeightSumsName});
+}
+
 std::vector<std::string> WorkFolder::journal() const {
   std::vector<std::string> lines;
-  std::ifstream in(path_ / "journal");
+  std::istringstream in(textOf(path_ / "journal"));
   for (std::string line; std::getline(in, line);) {
     // A line that a full disk cut off may have another one behind it.
     if (line.size() > 17 &&
@@ -241,7 +280,7 @@ std::vector<std::string> WorkFolder::journal() const {
 Result<Done> WorkFolder::note(const std::string& line) const {
   const fs::path file = path_ / "journal";
   const std::string text = "\n" + line + " " + hexadecimal(checksum(line)) + "\n";
-  const int handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  const int handle = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666);
   const bool done =
       handle >= 0 && ::write(handle, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   const int error = errno;
@@ -281,9 +320,10 @@ Result<Done> WorkFolder::finish(const fs::path& output) {
   }
   const fs::path beside = output.has_parent_path() ? output.parent_path() : fs::path(".");
   static_cast<void>(reachDisk(beside));
-  fs::remove_all(path_, ignored);
+  Findings others = removeOwn(path_, isOfABake).findings();
+  for (Finding& finding : others) finding.severity = Severity::warning;
   lock_.reset();
-  return Done{};
+  return {Done{}, std::move(others)};
 }
 
 }  // namespace trimtab::terrain

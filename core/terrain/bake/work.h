@@ -24,8 +24,10 @@ class FileLock {
   int handle_;
 };
 
-/// The folder of an unfinished bake: ".NAME.work" beside the output.
+/// The folder of an unfinished bake: ".NAME.work" beside the output. Files of other names in it are not its
+/// own, and stay when it is emptied or removed.
 ///
+///   trimtab.mark      says that the folder is a bake's
 ///   recipe.json       the stamped recipe; another recipe empties the folder
 ///   journal           one line with a checksum per finished step
 ///   voids.bits        one bit per post, set where a void was filled
@@ -37,7 +39,8 @@ class WorkFolder {
   /// processes may bake parts at the same time.
   enum class Use { alone, join, part };
   /// Opens or makes the folder. Removes work of another recipe, except for `join`, which is then refused.
-  /// Refuses an output that is a mount point, because a folder cannot be renamed onto it.
+  /// Refuses a folder of this name that no bake has marked, unless it is empty, and an output that is a mount
+  /// point, because a folder cannot be renamed onto it. The findings of success name what is not its own.
   static Result<std::unique_ptr<WorkFolder>> open(const std::filesystem::path& output,
                                                   const std::string& recipe, Use use);
   /// Removes the folder if no step has finished.
@@ -55,12 +58,17 @@ class WorkFolder {
   /// Removes all work. The caller must have opened the folder for `alone` or `join`.
   Result<Done> beginAnew();
 
+  /// Removes from database/ what an interrupted end left there: all but the heights. The findings of success
+  /// name what is not a database's.
+  Result<Done> clearDatabase() const;
+
   /// Returns the journal's lines whose checksums are right.
   std::vector<std::string> journal() const;
   Result<Done> note(const std::string& line) const;
 
   /// Renames database/ to `output`, replacing a database or an empty folder there, and removes the work
-  /// folder. If that fails, both stay as they were and the next bake continues from here.
+  /// folder. If that fails, both stay as they were and the next bake continues from here. The findings of
+  /// success name what is not its own and stays in the work folder.
   Result<Done> finish(const std::filesystem::path& output);
 
  private:

@@ -2,13 +2,11 @@
 
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "trimtab/preset/file_io.h"
 #include "trimtab/preset/unfinished.h"
 #include "trimtab/terrain/elevation/georeference.h"
 #include "trimtab/terrain/grid/post_grid.h"
@@ -49,20 +47,13 @@ Result<Done> write(const fs::path& tif, const Shape& shape, const std::array<dou
                    const std::function<bool(std::uint32_t, std::uint32_t, std::span<T>)>& fill) {
   useGdal();
   GdalErrors errors;
-  clearUnfinished(tif);
-  fs::path unfinished = partPrefix(tif);
-  unfinished += std::to_string(::getpid());
-  const auto gone = [&](Finding why) {
-    std::error_code ignored;
-    fs::remove(unfinished, ignored);
-    return why;
-  };
+  auto unfinished = Unfinished::file(tif);
+  if (!unfinished) return unfinished.findings();
   const auto failed = [&](const std::string& otherwise) {
-    return gone(about(Severity::error, tif, "", "a GeoTIFF to be written", errors.last(otherwise)));
+    return about(Severity::error, tif, "", "a GeoTIFF to be written", errors.last(otherwise));
   };
   {
-    const Dataset data = created(unfinished, shape, corner);
-    const UnfinishedLock lock(unfinished);
+    const Dataset data = created(unfinished->path(), shape, corner);
     if (!data) return failed("GDAL gives no reason");
     prepare(*data);
     const auto rows = static_cast<std::uint32_t>(shape.height);
@@ -71,7 +62,7 @@ Result<Done> write(const fs::path& tif, const Shape& shape, const std::array<dou
     std::vector<T> values(across * std::min(kTile, rows));
     for (std::uint32_t first = 0; first < rows; first += kTile) {
       const std::uint32_t some = std::min(kTile, rows - first);
-      if (!fill(first, some, std::span(values).first(across * some))) return gone(cancelled(tif.string()));
+      if (!fill(first, some, std::span(values).first(across * some))) return cancelled(tif.string());
       const int count = static_cast<int>(some);
       if (data->RasterIO(GF_Write, 0, static_cast<int>(first), shape.width, count, values.data(), shape.width,
                          count, shape.type, shape.bands, nullptr, pixel, pixel * shape.width,
@@ -84,8 +75,8 @@ Result<Done> write(const fs::path& tif, const Shape& shape, const std::array<dou
   }
   // What was buffered, and the table of tiles, is only written when the dataset closes.
   if (errors.any()) return failed("GDAL gives no reason");
-  const auto done = putInPlace(unfinished, tif);
-  return done ? done : gone(done.findings().front());
+  if (auto done = unfinished->putInPlace(); !done) return done;
+  return {Done{}, unfinished.findings()};
 }
 
 }  // namespace

@@ -1,11 +1,9 @@
 #include "trimtab/terrain/format/page_file.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <mutex>
@@ -121,15 +119,8 @@ class StoredPages final : public PageFile {
 
 class FileWriter final : public PageFileWriter {
  public:
-  FileWriter(fs::path file, fs::path unfinished, int handle)
-      : file_(std::move(file)), unfinished_(std::move(unfinished)), handle_(handle), lock_(unfinished_) {}
-  ~FileWriter() override {
-    if (handle_ < 0) return;
-    ::close(handle_);
-    ::unlink(unfinished_.c_str());
-  }
-  FileWriter(const FileWriter&) = delete;
-  FileWriter& operator=(const FileWriter&) = delete;
+  FileWriter(fs::path file, Unfinished unfinished)
+      : file_(std::move(file)), unfinished_(std::move(unfinished)) {}
 
   Result<Done> add(std::uint64_t key, std::span<const std::byte> blob) override {
     Entry entry{key, 0, blob.size(), checksum(textOf(blob.data(), blob.size()))};
@@ -157,20 +148,17 @@ class FileWriter final : public PageFileWriter {
       return done;
     if (auto done = write(0, &header, sizeof header); !done) return done;
     // An empty table does not reach the end of the last blob's filling.
-    if (::ftruncate(handle_, static_cast<off_t>(header.fileBytes)) != 0 ||
-        ::rename(unfinished_.c_str(), file_.c_str()) != 0)
-      return wrong(file_, "", "a place for the file", std::strerror(errno));
-    const int handle = handle_;
-    handle_ = -1;
-    if (::close(handle) != 0) return wrong(file_, "", "a file that can be written", std::strerror(errno));
-    return Done{};
+    if (::ftruncate(unfinished_.handle(), static_cast<off_t>(header.fileBytes)) != 0)
+      return wrong(file_, "", "a file that can be written", std::strerror(errno));
+    // A bake flushes its files at its end.
+    return unfinished_.putInPlace(false);
   }
 
  private:
   Result<Done> write(std::uint64_t at, const void* data, std::size_t size) {
     const char* from = static_cast<const char*>(data);
     while (size > 0) {
-      const ssize_t wrote = ::pwrite(handle_, from, size, static_cast<off_t>(at));
+      const ssize_t wrote = ::pwrite(unfinished_.handle(), from, size, static_cast<off_t>(at));
       if (wrote < 0 && errno == EINTR) continue;
       if (wrote <= 0)
         return wrong(file_, "", "room to write " + bytesText(size),
@@ -182,9 +170,8 @@ class FileWriter final : public PageFileWriter {
     return Done{};
   }
 
-  fs::path file_, unfinished_;
-  int handle_;
-  UnfinishedLock lock_;
+  fs::path file_;
+  Unfinished unfinished_;
   std::mutex mutex_;
   std::uint64_t end_ = sizeof(Header);
   std::vector<Entry> entries_;
@@ -235,13 +222,9 @@ Result<std::shared_ptr<const PageFile>> PageFile::open(const fs::path& file) {
 }
 
 Result<std::unique_ptr<PageFileWriter>> PageFileWriter::create(const fs::path& file) {
-  static std::atomic<unsigned> count{0};
-  clearUnfinished(file);
-  fs::path unfinished = partPrefix(file);
-  unfinished += std::to_string(::getpid()) + "-" + std::to_string(count++);
-  const int handle = ::open(unfinished.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (handle < 0) return wrong(file, "", "a file that can be written", std::strerror(errno));
-  return std::unique_ptr<PageFileWriter>(std::make_unique<FileWriter>(file, unfinished, handle));
+  auto unfinished = Unfinished::file(file);
+  if (!unfinished) return unfinished.findings();
+  return {std::make_unique<FileWriter>(file, std::move(unfinished).value()), unfinished.findings()};
 }
 
 }  // namespace trimtab::terrain

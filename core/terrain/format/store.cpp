@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "manifest_checksum.h"
+#include "trimtab/preset/file_io.h"
 
 namespace trimtab::terrain {
 
@@ -18,11 +19,8 @@ using Json = nlohmann::ordered_json;
 
 static_assert(std::endian::native == std::endian::little, "the files are little-endian");
 
-/// A folder is a database's own if its manifest begins so and its files have these names only.
+/// A folder is a database's own if its manifest begins so and its files have no other names.
 bool holdsNothingElse(const std::filesystem::path& folder) {
-  constexpr std::array<std::string_view, 11> kNames = {
-      kManifestName, kHeightsName, kHeightSumsName, kImageName,  kImageSumsName, kNodesName,
-      kSlopesName,   kConesName,   kPatchesName,    kGroundName, kStaticLodName};
   constexpr std::string_view kBegins = "{\n  \"format\": \"trimtab-terrain\"";
   std::error_code error;
   // A pipe would never give its first byte.
@@ -35,13 +33,20 @@ bool holdsNothingElse(const std::filesystem::path& folder) {
   for (auto entry = Entries(folder, error); !error && entry != Entries(); entry.increment(error)) {
     std::error_code unseen;
     if (!std::filesystem::is_regular_file(entry->symlink_status(unseen)) ||
-        std::find(kNames.begin(), kNames.end(), entry->path().filename().string()) == kNames.end())
+        !isDatabaseFile(entry->path().filename().string()))
       return false;
   }
   return !error;
 }
 
 }  // namespace
+
+bool isDatabaseFile(std::string_view name) {
+  constexpr std::array<std::string_view, 11> kNames = {
+      kManifestName, kHeightsName, kHeightSumsName, kImageName,  kImageSumsName, kNodesName,
+      kSlopesName,   kConesName,   kPatchesName,    kGroundName, kStaticLodName};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
 
 bool mayReplace(const std::filesystem::path& folder) {
   std::error_code error;
@@ -106,12 +111,7 @@ std::vector<float> nodeNumbers(const TerrainIndex& index) {
 
 Result<FileEntry> writeFile(const std::filesystem::path& folder, const std::string& name,
                             std::string_view bytes) {
-  std::ofstream out(folder / name, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out)
-    return Finding{Severity::error, (folder / name).string(), "",
-                   "room to write " + std::to_string(bytes.size()) + " bytes", std::strerror(errno)};
+  if (auto written = writeOwn(folder / name, bytes); !written) return written.findings();
   return FileEntry{name, bytes.size(), checksum(bytes)};
 }
 

@@ -12,6 +12,8 @@
 #include <optional>
 #include <vector>
 
+#include "trimtab/preset/unfinished.h"
+
 namespace trimtab::terrain {
 
 namespace {
@@ -34,9 +36,7 @@ class Rows {
       held_.resize(floats);
       return;
     }
-    std::string name = (folder_ / ".trimtab-voids-XXXXXX").string();
-    file_ = ::mkstemp(name.data());
-    if (file_ >= 0) ::unlink(name.c_str());
+    file_ = openUnnamed(folder_);
     failed_ = file_ < 0 ? errno : 0;
   }
   ~Rows() {

@@ -3,12 +3,9 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <limits>
 #include <new>
 #include <numbers>
@@ -142,17 +139,6 @@ std::string gzip(std::string_view bytes) {
   out.resize(z.total_out);
   ::deflateEnd(&z);
   return out;
-}
-
-Result<Done> writeScenery(const std::filesystem::path& file, std::string_view bytes) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out)
-    return Finding{Severity::error, file.string(), "",
-                   "room to write " + std::to_string(bytes.size()) + " bytes", std::strerror(errno)};
-  return Done{};
 }
 
 std::vector<std::array<float, 2>> textureByPlace(const std::vector<Vec3>& places) {

@@ -1,11 +1,8 @@
 #include "trimtab/terrain/static_lod/export.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "trimtab/preset/file_io.h"
@@ -43,28 +40,16 @@ struct List {
   }
 };
 
-/// Removes an unfinished folder unless it was put in place.
-class UnfinishedFolder {
- public:
-  explicit UnfinishedFolder(const fs::path& output) : path_(partPrefix(output)) {
-    clearUnfinished(output);
-    path_ += std::to_string(::getpid());
-    std::error_code ignored;
-    fs::create_directories(path_, ignored);
-    lock_.emplace(path_);
-  }
-  ~UnfinishedFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  UnfinishedFolder(const UnfinishedFolder&) = delete;
-  UnfinishedFolder& operator=(const UnfinishedFolder&) = delete;
-  const fs::path& path() const { return path_; }
+constexpr const char* kRoot = "Terrain";
 
- private:
-  fs::path path_;
-  std::optional<UnfinishedLock> lock_;
-};
+/// Whether an export makes this: the folders, the lists, and the tiles.
+bool isOfAnExport(const fs::path& inFolder) {
+  const std::string name = inFolder.filename().string();
+  if (*inFolder.begin() != kRoot) return false;
+  const auto depth = std::distance(inFolder.begin(), inFolder.end());
+  constexpr int kFileDepth = 4;  // Terrain/e120n30/e128n36/3072816.stg
+  return depth < kFileDepth || (depth == kFileDepth && (name.ends_with(".stg") || name.ends_with(".btg.gz")));
+}
 
 Result<Done> makeFolder(const fs::path& folder) {
   std::error_code error;
@@ -132,8 +117,11 @@ Result<SceneryExported> exportScenery(const StaticLodTerrain& terrain, const Sce
                                       const std::string& where) {
   Findings findings = faultsOf(terrain, options, where);
   if (!findings.empty()) return findings;
-  const UnfinishedFolder unfinished(options.output);
-  const fs::path root = unfinished.path() / "Terrain";
+  std::error_code ignored;
+  fs::create_directories(options.output.parent_path(), ignored);
+  auto unfinished = Unfinished::folder(options.output, isOfAnExport);
+  if (!unfinished) return unfinished.findings();
+  const fs::path root = unfinished->path() / kRoot;
   if (auto made = makeFolder(root); !made) return made.findings();
 
   SceneryExported done;
@@ -169,7 +157,7 @@ Result<SceneryExported> exportScenery(const StaticLodTerrain& terrain, const Sce
     const fs::path folder = root / bucketFolder(bucket);
     if (auto made = makeFolder(folder); !made) return made.findings();
     const std::string bytes = gzip(btgBytes(surface));
-    if (auto written = writeScenery(folder / (name + ".btg.gz"), bytes); !written) return written.findings();
+    if (auto written = writeOwn(folder / (name + ".btg.gz"), bytes); !written) return written.findings();
     ++(base ? done.tiles : done.airports);
     done.triangles += surface.mesh.triangles.size();
     done.bytes += bytes.size();
@@ -181,14 +169,14 @@ Result<SceneryExported> exportScenery(const StaticLodTerrain& terrain, const Sce
   if (!findings.empty()) return findings;
   for (const auto& [bucket, list] : lists) {
     const std::string text = list.text();
-    if (auto written = writeScenery(root / bucketFolder(bucket) / (std::to_string(bucket) + ".stg"), text);
+    if (auto written = writeOwn(root / bucketFolder(bucket) / (std::to_string(bucket) + ".stg"), text);
         !written)
       return written.findings();
     ++done.lists;
     done.bytes += text.size();
   }
-  if (auto placed = putInPlace(unfinished.path(), options.output); !placed) return placed.findings();
-  return done;
+  if (auto placed = unfinished->putInPlace(); !placed) return placed.findings();
+  return {done, unfinished.findings()};
 }
 
 }  // namespace trimtab::terrain

@@ -134,8 +134,7 @@ TEST(FeedCommand, keepsWhatItRecordedBeforeTheDiskWasFull) {
   const std::string port = freePort(), out = (dir / "out.csv").string();
   // A limit on the size of files does what a full disk does.
   Background recorder(
-      {"/bin/bash", "-c",
-       "trap '' XFSZ; ulimit -f 8; exec " + cli() + " feed record --listen " + port + " -o " + out},
+      {"/bin/bash", "-c", "ulimit -f 8; exec " + cli() + " feed record --listen " + port + " -o " + out},
       dir / "err");
   waitFor(dir / "err", "listening");
   run(cli() + " feed play " + aFlight(dir) + " --to " + port + " --protocol cigi3 --rate-hz 100");
@@ -146,6 +145,23 @@ TEST(FeedCommand, keepsWhatItRecordedBeforeTheDiskWasFull) {
   ASSERT_TRUE(flight) << toString(flight.findings());
   EXPECT_GT(flight->states.size(), 20U);
   EXPECT_LT(flight->states.size(), 191U);
+}
+
+TEST(FeedCommand, leavesAForeignFileBesideItsTargetAsItIs) {
+  ScratchDir dir;
+  for (const char* notes : {"", "notes"}) {
+    writeFile(dir / "out.csv.part", notes);
+    const Ran ran = run(cli() + " feed record --listen " + freePort() + " --seconds 0.1 -o " +
+                        (dir / "out.csv").string());
+    EXPECT_EQ(ran.exitCode, 1);
+    EXPECT_NE(ran.err.find("out.csv.part: "), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("write to another file"), std::string::npos) << ran.err;
+    EXPECT_EQ(readFile(dir / "out.csv.part"), notes);
+  }
+  const Ran nothing = run(cli() + " feed record --listen " + freePort() + " --seconds 0.1 -o " +
+                          (dir / "other.csv").string());
+  EXPECT_EQ(nothing.exitCode, 1) << "it heard nothing";
+  EXPECT_EQ(trimtab::test::namesIn(dir.path()), std::vector<std::string>{"out.csv.part"});
 }
 
 TEST(FeedCommand, refusesATargetBeforeItListens) {

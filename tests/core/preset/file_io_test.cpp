@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -16,6 +15,12 @@
 #include "tests/disk_order.h"
 #include "tests/support.h"
 #include "trimtab/preset/preset.h"
+
+static int timesTheMaskWasSet = 0;
+extern "C" mode_t umask(mode_t mask) noexcept {
+  ++timesTheMaskWasSet;
+  return static_cast<mode_t>(::syscall(SYS_umask, mask));
+}
 
 namespace trimtab {
 namespace {
@@ -59,7 +64,7 @@ TEST(WriteAtomically, leavesTheOldFileOrTheNewOneWhenThePowerFails) {
   ASSERT_TRUE(writeAtomically(dir / "a", "new"));
   const std::vector<std::string> events = order.events();
   ASSERT_EQ(events.size(), 3u);
-  EXPECT_THAT(events[0], ::testing::StartsWith("flush .a."));
+  EXPECT_THAT(events[0], ::testing::StartsWith("flush #"));
   EXPECT_EQ(events[1], "rename a");
   EXPECT_EQ(events[2], "flush " + dir.path().filename().string());
 }
@@ -83,6 +88,15 @@ TEST(WriteAtomically, givesNewFilesTheUsualMode) {
   ASSERT_EQ(::stat((dir / "ordinary").c_str(), &ordinary), 0);
   ASSERT_EQ(::stat((dir / "ours").c_str(), &ours), 0);
   EXPECT_EQ(ours.st_mode, ordinary.st_mode);
+}
+
+/// The mask is the process's: another thread would make files that everybody may write.
+TEST(WriteAtomically, neverSetsTheMaskOfThisProcess) {
+  const ScratchDir dir;
+  timesTheMaskWasSet = 0;
+  ASSERT_TRUE(writeAtomically(dir / "new", ""));
+  ASSERT_TRUE(writeAtomically(dir / "new", "replaced"));
+  EXPECT_EQ(timesTheMaskWasSet, 0);
 }
 
 TEST(WriteAtomically, namesTheFileAndTheReason) {
@@ -112,7 +126,7 @@ TEST(WriteAtomically, keepsTheOldFileWhenThereIsNoRoom) {
   const ScratchDir dir;
   test::writeFile(dir / "a", "old");
   EXPECT_TRUE(holdsInChild([&] {
-    std::signal(SIGXFSZ, SIG_IGN);
+    failLargeWrites();
     const rlimit limit{4096, 4096};
     ::setrlimit(RLIMIT_FSIZE, &limit);
     const auto written = writeAtomically(dir / "a", std::string(100000, 'x'));
@@ -162,21 +176,18 @@ TEST(WriteAtomically, replacesAFileThatMayBeWrittenButNotRead) {
   EXPECT_EQ(filesIn(dir.path()), 1u);
 }
 
-TEST(WriteAtomically, clearsAwayWhatAKilledProgramLeftAndNothingElse) {
+TEST(WriteAtomically, waitsForNobodyAtTheOtherEndOfAPipe) {
   const ScratchDir dir;
-  test::writeFile(dir / ".a.trimtab-q1W2e3", "left by a program that was killed");
-  const char* const others[] = {".a.Xy12Zz", ".b.trimtab-q1W2e3", ".a.trimtab-longer1", "a.trimtab-q1W2e3"};
-  for (const char* name : others) test::writeFile(dir / name, "of others");
-  test::writeFile(dir / ".a.trimtab-atwork", "of a program that is still writing");
-  const int atWork = ::open((dir / ".a.trimtab-atwork").c_str(), O_RDONLY | O_CLOEXEC);
-  ASSERT_EQ(::flock(atWork, LOCK_EX), 0);
-  ASSERT_TRUE(writeAtomically(dir / "a", "new"));
-  EXPECT_FALSE(std::filesystem::exists(dir / ".a.trimtab-q1W2e3"));
-  for (const char* name : others) EXPECT_TRUE(std::filesystem::exists(dir / name)) << name;
-  EXPECT_TRUE(std::filesystem::exists(dir / ".a.trimtab-atwork"));
-  ::close(atWork);
-  ASSERT_TRUE(writeAtomically(dir / "a", "newer"));
-  EXPECT_FALSE(std::filesystem::exists(dir / ".a.trimtab-atwork"));
+  const std::filesystem::path pipe = dir / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(toString(writeAtomically(pipe, "x").findings()), HasSubstr("nobody reads"));
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  ASSERT_TRUE(writeAtomically(pipe, "x"));
+  char got = 0;
+  EXPECT_EQ(::read(reader, &got, 1), 1);
+  EXPECT_THAT(toString(writeAtomically(pipe, std::string(1000000, 'x')).findings()), HasSubstr("full"));
+  ::close(reader);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(WriteAtomically, byManyAtOnceLeavesOneOfTheirTexts) {
@@ -221,11 +232,10 @@ TEST(ReadWhole, refusesWhatIsTooLargeBeforeItReadsIt) {
 
 TEST(CanWriteIn, leavesNothingAndSaysWhyNot) {
   const ScratchDir dir;
-  test::writeFile(dir / ".trimtab-abc123", "");
-  test::writeFile(dir / ".trimtab-settings", "mine");
+  test::writeFile(dir / ".trimtab-backup", "mine");
   EXPECT_TRUE(canWriteIn(dir.path()));
-  EXPECT_FALSE(std::filesystem::exists(dir / ".trimtab-abc123")) << "a killed program left it";
-  EXPECT_TRUE(std::filesystem::exists(dir / ".trimtab-settings"));
+  EXPECT_EQ(test::namesIn(dir.path()), std::vector<std::string>{".trimtab-backup"});
+  EXPECT_THAT(toString(canMake(dir / "none/a").findings()), HasSubstr("none/a: "));
   EXPECT_TRUE(makeWritable(dir / "a/b"));
   EXPECT_TRUE(std::filesystem::is_empty(dir / "a/b"));
   EXPECT_THAT(toString(canWriteIn(dir / "none").findings()), HasSubstr("No such file"));

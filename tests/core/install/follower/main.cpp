@@ -4,12 +4,12 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 
-#include <chrono>
-#include <cstdio>
 #include <trimtab/host/decoder.h>
-#include <trimtab/measure/trace.h>
+#include <trimtab/measure/trace_file.h>
 #include <trimtab/preset/preset.h>
 #include <trimtab/session/session.h>
+#include <chrono>
+#include <cstdio>
 
 static double now() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   if (!preset) return refused(preset.findings());
   const auto parameters = trimtab::validate(preset->parameters);
   if (!parameters) return refused(parameters.findings());
-  auto trace = trimtab::TraceWriter::open(argv[2]);
+  auto trace = trimtab::TraceFile::open(argv[2]);
   if (!trace) return refused(trace.findings());
 
   const int udp = socket(AF_INET, SOCK_DGRAM, 0);
@@ -46,13 +46,12 @@ int main(int argc, char** argv) {
     const double arrival = now();
     if (const auto state = decoder.accept({{bytes, std::size_t(length)}, arrival, "host"})) {
       const trimtab::ReceivedState received{*state, arrival, now()};
-      session.receive({&received, 1});  // decides
+      session.receive({&received, 1});                                                        // decides
       if (const auto image = session.request(now(), 1280, 720)) session.finished({}, now());  // draw here
     }
   }
   std::vector<trimtab::TraceRow> rows;
   session.takeRows(rows, true);
-  for (const trimtab::TraceRow& row : rows) trace.value().write(row);
-  const auto closed = trace.value().close();
-  return closed ? 0 : refused(closed.findings());
+  const auto written = trace->write(rows), closed = trace->finish();
+  return written && closed ? 0 : refused(closed.findings());
 }

@@ -1,10 +1,11 @@
 #include <sched.h>
 #include <sys/mount.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "resumed_bake.h"
 
-/// Bakes whose disk has no room, or whose output cannot be renamed.
+/// Bakes whose disk has no room, whose output cannot be renamed, or whose folder holds files of others.
 namespace trimtab::terrain {
 namespace {
 
@@ -95,6 +96,40 @@ TEST_F(ResumedBake, refusesAMountPointBeforeItBegins) {
   }));
   if (status == 100) GTEST_SKIP() << "needs leave to mount";
   EXPECT_EQ(status, 0);
+}
+
+/// Another recipe empties the folder, and the end removes it: both of what a bake made there.
+TEST_F(ResumedBake, leavesWhatOthersPutIntoItsFolder) {
+  options_.maxError = Metres{5};
+  ASSERT_TRUE(bakePart(options_, 1, 2));
+  const fs::path work = dir_ / ".db.work";
+  fs::create_directory(work / "mine");
+  for (const char* name : {"thesis.txt", "mine/thesis.txt", "pieces/thesis.txt"})
+    test::writeFile(work / name, "mine");
+  options_.maxError = Metres{20};
+  const auto made = bake(options_);
+  ASSERT_TRUE(made) << toString(made.findings());
+  expectWhole(dir_ / "db");
+  for (const char* name : {"thesis.txt", "mine/thesis.txt", "pieces/thesis.txt"})
+    EXPECT_EQ(test::readFile(work / name), "mine") << name;
+  EXPECT_EQ(test::namesIn(work), (std::vector<std::string>{"mine", "pieces", "thesis.txt", "trimtab.mark"}));
+  for (const char* name : {"thesis.txt", "mine", "pieces/thesis.txt"})
+    EXPECT_NE(toString(made.findings()).find((work / name).string() + ": expected nothing"),
+              std::string::npos)
+        << name << toString(made.findings());
+  EXPECT_TRUE(bake(options_)) << "it is still a bake's";
+}
+
+TEST_F(ResumedBake, waitsForNoPipeInItsFolder) {
+  ASSERT_TRUE(bakePart(options_, 1, 2));
+  fs::remove(dir_ / ".db.work/journal");
+  ASSERT_EQ(::mkfifo((dir_ / ".db.work/journal").c_str(), 0600), 0);
+  const pid_t child = start([&] {
+    ::alarm(60);
+    return bake(options_) ? 0 : 1;
+  });
+  EXPECT_EQ(ended(child), 1);
+  EXPECT_TRUE(fs::is_fifo(dir_ / ".db.work/journal"));
 }
 
 }  // namespace

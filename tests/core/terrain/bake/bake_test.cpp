@@ -1,10 +1,10 @@
 #include <sys/resource.h>
 
-#include <csignal>
 #include <fstream>
 #include <thread>
 
 #include "bake_support.h"
+#include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/bake/cache.h"
 #include "trimtab/terrain/synthetic/sample.h"
 
@@ -190,7 +190,7 @@ TEST_F(Bake, namesNoHeightsThatTheDiskHadNoRoomFor) {
   const fs::path whole = dir_ / "whole.tif", part = dir_ / "part.tif";
   ASSERT_TRUE(writeSample(whole, sample));
   const rlim_t size = fs::file_size(whole);
-  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  failLargeWrites();
   rlimit limit{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
   for (const rlim_t lacks : {rlim_t{1}, rlim_t{8}, rlim_t{100}, rlim_t{1000}, size / 2, size - 8, size}) {
@@ -202,14 +202,13 @@ TEST_F(Bake, namesNoHeightsThatTheDiskHadNoRoomFor) {
     EXPECT_FALSE(written) << lacks << " of " << size;
     EXPECT_FALSE(fs::exists(part));
   }
-  std::signal(SIGXFSZ, before);
   EXPECT_TRUE(writeSample(part, sample));
   EXPECT_EQ(test::readFile(part), test::readFile(whole));
 }
 
 TEST_F(Bake, saysWhereALargeFileHasNoRoomAndGoesOnWhenThereIs) {
   // A limit on the size of files stands in for it.
-  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  failLargeWrites();
   rlimit limit{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &limit), 0);
   rlimit little = limit;
@@ -218,7 +217,6 @@ TEST_F(Bake, saysWhereALargeFileHasNoRoomAndGoesOnWhenThereIs) {
   const auto made = bake(options_);
   const auto sample = writeSample(dir_ / "sample.tif", SampleOptions{1, 20, 300, nullptr});
   setrlimit(RLIMIT_FSIZE, &limit);
-  std::signal(SIGXFSZ, before);
   ASSERT_FALSE(made);
   EXPECT_NE(toString(made.findings()).find("heights.f32"), std::string::npos) << toString(made.findings());
   EXPECT_FALSE(sample);

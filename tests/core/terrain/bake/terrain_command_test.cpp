@@ -218,6 +218,44 @@ TEST_F(TerrainCommand, exitsWithOneForBadDataAndTwoForBadUsage) {
     EXPECT_EQ(test::run(cli(usage)).exitCode, 2) << usage;
 }
 
+TEST_F(TerrainCommand, leavesWhatOthersPutBesideASample) {
+  const std::filesystem::path folder = dir_ / ".s.tif.part-2026-11-27";
+  std::filesystem::create_directory(folder);
+  test::writeFile(folder / "thesis.txt", "mine");
+  const std::string sample = "sample --size-km 10 --post-m 200 -o ";
+  const auto made = test::run(cli(sample + at("s.tif")));
+  EXPECT_EQ(made.exitCode, 0) << made.err;
+  EXPECT_NE(made.err.find("warning: " + folder.string() + ": "), std::string::npos) << made.err;
+  EXPECT_EQ(test::readFile(folder / "thesis.txt"), "mine");
+  const auto device = test::run(cli(sample + "/dev/null"));
+  EXPECT_EQ(device.exitCode, 1);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null")) << "it is not replaced";
+}
+
+TEST_F(TerrainCommand, bakesInNoFolderOfOthers) {
+  ASSERT_EQ(test::run(cli("sample --size-km 10 --post-m 200 -o " + at("s.tif"))).exitCode, 0);
+  const std::filesystem::path work = dir_ / ".w.work";
+  std::filesystem::create_directory(work);
+  test::writeFile(work / "thesis.txt", "mine");
+  const auto refused = test::run(cli("bake " + at("s.tif") + " -o " + at("w")));
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_NE(refused.err.find(work.string() + ": "), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("name another output"), std::string::npos) << refused.err;
+  EXPECT_EQ(test::namesIn(work), std::vector<std::string>{"thesis.txt"});
+  std::filesystem::remove(work / "thesis.txt");
+  const auto made = test::run(cli("bake " + at("s.tif") + " -o " + at("w")));
+  EXPECT_EQ(made.exitCode, 0) << made.err;
+  EXPECT_FALSE(std::filesystem::exists(work));
+}
+
+/// `ulimit -f` has the system end a program by a signal, unless it ignores that.
+TEST_F(TerrainCommand, saysWhenAFileMayNotBeSoLarge) {
+  const auto ran = test::run("ulimit -f 100; " + cli("sample -o " + at("s.tif")));
+  EXPECT_EQ(ran.exitCode, 1) << ran.err;
+  EXPECT_NE(ran.err.find("s.tif"), std::string::npos) << ran.err;
+  EXPECT_TRUE(std::filesystem::is_empty(dir_.path()));
+}
+
 TEST_F(TerrainCommand, stopsCleanlyWhenInterrupted) {
   const auto stopped = test::run("exec timeout -s INT --preserve-status 0.3 " +
                                  cli("sample -o " + at("s.tif") + " --post-m 30"));

@@ -100,12 +100,4 @@ inline Result<std::shared_ptr<const terrain::Database>> bakeInto(const ScratchDi
   return terrain::bake(options);
 }
 
-inline std::vector<std::string> namesIn(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 }  // namespace trimtab::test

@@ -1,5 +1,9 @@
 #include "trimtab/terrain/static_lod/export.h"
 
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -142,8 +146,17 @@ TEST(StaticLodExport, writesTheSameBytesAgain) {
   const auto trees = treesOf(tileWithAirport(), 200);
   ASSERT_TRUE(trees);
   const test::ScratchDir dir;
-  fs::create_directories(dir / ".a.part-4000000/w120n30");
-  test::writeFile(dir / ".a.part-4000000/w120n30/1.btg.gz", "of a program that was killed");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    // Killed after its first tile.
+    const auto kill = [](double done, const std::string&) {
+      return done == 0 || ::kill(::getpid(), SIGKILL) != 0;
+    };
+    static_cast<void>(exportScenery(*trees, {1, dir / "a", kill}, "trees"));
+    ::_exit(1);
+  }
+  ::waitpid(child, nullptr, 0);
+  ASSERT_EQ(test::namesIn(dir.path()).size(), 2u) << "a folder and its mark";
   for (const char* name : {"a", "b/"})
     ASSERT_TRUE(exportScenery(*trees, {1, dir / name, {}}, "trees")) << name;
   std::size_t files = 0;

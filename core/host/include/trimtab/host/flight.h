@@ -47,29 +47,10 @@ Result<std::vector<CapturedDatagram>> parsePcap(std::string_view bytes, const st
 /// Writes a classic little-endian pcap file with microseconds and raw IPv4, which any dissector reads.
 Result<Done> writePcap(const std::filesystem::path& file, std::span<const CapturedDatagram> datagrams);
 
-/// Writes such a file as the datagrams come, so that whatever ends the program loses none that was added.
-class PcapWriter {
- public:
-  /// Makes the file, or empties it.
-  static Result<PcapWriter> open(const std::filesystem::path& file);
-  ~PcapWriter();
-  PcapWriter(PcapWriter&& other) noexcept;
-  PcapWriter& operator=(PcapWriter&&) = delete;
-
-  /// Hands the datagrams to the system, all or none: if that fails, as on a full disk, the file ends with the
-  /// last datagram that was added before.
-  Result<Done> add(std::span<const CapturedDatagram> datagrams);
-  /// Returns how many datagrams the file has.
-  std::uint64_t size() const { return size_; }
-  /// Waits until the disk has everything.
-  Result<Done> close();
-
- private:
-  PcapWriter(std::filesystem::path file, int handle) : file_(std::move(file)), handle_(handle) {}
-  std::filesystem::path file_;
-  int handle_;
-  std::uint64_t bytes_ = 0, size_ = 0;
-};
+/// Return how such a file begins, and how datagrams follow: for those who write them as they come. `where`
+/// names the file in findings.
+std::string pcapHeader();
+Result<std::string> pcapRecords(std::span<const CapturedDatagram> datagrams, const std::string& where);
 
 /// Returns the flight of the busiest host among the datagrams, from 0 s on, timed by the host's time stamps
 /// if they always rise, else by arrival. The findings report other senders, bad packets, loss, silences and

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,23 +47,6 @@ struct TraceRow {
 std::string traceHeader();
 /// Appends one row with its line end. It allocates only what `text` needs to grow.
 void appendTraceRow(std::string& text, const TraceRow& row);
-
-/// Writes rows to a file one by one; what was written stays if the program dies. `close` reports whether all
-/// of it reached the disk.
-class TraceWriter {
- public:
-  static Result<TraceWriter> open(const std::filesystem::path& file);
-  void write(const TraceRow& row);
-  /// Reports whether all rows so far reached the file.
-  bool good() const { return stream_.good(); }
-  Result<Done> close();
-
- private:
-  TraceWriter(std::filesystem::path file, std::ofstream stream);
-  std::filesystem::path file_;
-  std::ofstream stream_;
-  std::string line_;
-};
 
 /// Reads a trace. Columns are found by name, in any order, and unknown ones are ignored. Every bad cell is a
 /// finding with its line and column; at most 50 are listed.

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include "trimtab/measure/trace.h"
+#include "trimtab/preset/part_file.h"
 
 namespace trimtab {
 
@@ -11,8 +13,7 @@ namespace trimtab {
 /// is. The rows so far are in `FILE.part`, which readTrace() reads, also after a crash.
 class TraceFile {
  public:
-  /// Refuses what finish() could not replace, and a `FILE.part` with rows: it may be all that is left of a
-  /// flight.
+  /// Refuses what finish() could not replace, and a `FILE.part` that holds rows or something else.
   static Result<TraceFile> open(const std::filesystem::path& file);
   /// Fails once, as soon as rows no longer reach the file; from then on rows are dropped, and finish() fails.
   Result<Done> write(std::span<const TraceRow> rows);
@@ -20,10 +21,9 @@ class TraceFile {
   Result<Done> finish();
 
  private:
-  TraceFile(std::filesystem::path file, TraceWriter writer)
-      : file_(std::move(file)), writer_(std::move(writer)) {}
-  std::filesystem::path file_;
-  TraceWriter writer_;
+  explicit TraceFile(PartFile part) : part_(std::move(part)) {}
+  PartFile part_;
+  std::string line_;
   bool failed_ = false;
 };
 

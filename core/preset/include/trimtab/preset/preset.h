@@ -67,8 +67,8 @@ std::string parameterReference();
 /// letter.
 std::string_view documentOf(char letter);
 
-/// Writes a file beside the target and renames it, so that there is the old file or the new one, never half
-/// of either.
+/// Writes a file: there is the old one or the new one, never half of either. Refuses a pipe that nobody
+/// reads. The findings of success name what others left there under the name of an unfinished file.
 Result<Done> writeAtomically(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace trimtab

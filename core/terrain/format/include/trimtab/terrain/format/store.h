@@ -33,6 +33,8 @@ inline constexpr const char* kStaticLodName = "static-lod.bin";
 /// Larger grids are drawn from patches only.
 inline constexpr std::size_t kMostTiledPosts = std::size_t{1} << 26;
 
+/// Tells whether a file of a database has this name.
+bool isDatabaseFile(std::string_view name);
 /// Tells whether a bake may replace a folder: it does not exist, or is empty, or holds the files of a
 /// database, possibly damaged, and nothing else.
 bool mayReplace(const std::filesystem::path& folder);

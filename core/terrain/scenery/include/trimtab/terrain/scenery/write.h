@@ -27,8 +27,6 @@ struct BtgSurface {
 std::string btgBytes(const BtgSurface& surface);
 /// Zips bytes as gunzip() reads them, without a time.
 std::string gzip(std::string_view bytes);
-/// Writes bytes to a new file. The finding of a failure names the file and the reason.
-Result<Done> writeScenery(const std::filesystem::path& file, std::string_view bytes);
 
 /// Returns texture coordinates by place, as scenery's land has them: kilometres east and north of the
 /// south-west corner of the whole degree that holds the middle of `places`. Neighbouring tiles of one degree
