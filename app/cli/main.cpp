@@ -3,7 +3,9 @@
 #include <cstring>
 #include <iostream>
 
+#include "app/link/stop_signals.h"
 #include "commands.h"
+#include "progress.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/units/labelled.h"
 
@@ -39,6 +41,7 @@ int finished(int exitCode) {
 }  // namespace trimtab::cli
 
 int main(int argc, char** argv) {
+  trimtab::handleStopSignals();
   CLI::App app{"Trimtab: tune culling and level of detail of image generators"};
   app.set_version_flag("--version", TRIMTAB_VERSION);
   app.require_subcommand(1);
@@ -52,6 +55,9 @@ int main(int argc, char** argv) {
   trimtab::cli::addExperiment(app, exitCode);
   trimtab::cli::addLeverage(app, exitCode);
   trimtab::cli::addWeather(app, exitCode);
+  app.parse_complete_callback([&app] {
+    if (!trimtab::cli::stopsWhenAsked(app)) trimtab::endAtStopSignals();
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -71,7 +71,6 @@ void printJson(const experiment::CalibratedWeather& calibrated) {
 }
 
 int calibrate(const WeatherOptions& arguments) {
-  stopWhenAsked();
   if (!mayWriteFile(arguments.output)) return kRefused;
   const auto preset = loadPreset(arguments.setup.preset);
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
@@ -114,6 +113,7 @@ void addWeather(CLI::App& app, int& exitCode) {
       ->check(CLI::PositiveNumber);
   command->add_option("-o,--output", arguments->output, "Preset file that receives far planes and densities");
   command->add_flag("--json", arguments->json, "One JSON document on standard output");
+  stopWhenAsked(*command);
   command->callback([arguments, &exitCode] { exitCode = calibrate(*arguments); });
 }
 

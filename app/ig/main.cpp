@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "app/link/stop_signals.h"
 #include "loop.h"
 #include "trimtab/hold/cost_model_file.h"
 #include "trimtab/preset/file_io.h"
@@ -162,6 +163,7 @@ int runWith(const Options& options) {
 }  // namespace trimtab::ig
 
 int main(int argc, char** argv) {
+  trimtab::handleStopSignals();
   ::mallopt(M_MMAP_THRESHOLD, trimtab::ig::kReturnedBlock);
   int exitCode = trimtab::ig::kDone;
   const std::optional<trimtab::ig::Options> options = trimtab::ig::parseOptions(argc, argv, exitCode);
