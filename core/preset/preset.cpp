@@ -12,6 +12,7 @@
 #include "trimtab/preset/sealed.h"
 #include "trimtab/units/finding_list.h"
 #include "trimtab/units/number.h"
+#include "trimtab/units/text.h"
 
 namespace trimtab {
 
@@ -70,11 +71,13 @@ Result<PresetText> readJsonPreset(std::string_view text, const std::string& wher
 class Reader {
  public:
   Reader(std::string_view text, std::string where, std::filesystem::path folder, int depth)
-      : text_(text), where_(std::move(where)), depth_(depth) {
+      : whole_(text), text_(withoutByteOrderMark(text)), where_(std::move(where)), depth_(depth) {
     preset_.folder = std::move(folder);
   }
 
   Result<Preset> read() {
+    if (isUtf16(whole_))
+      return Finding{Severity::error, where_, "", "text in UTF-8", "UTF-16; save it again as UTF-8"};
     const bool isXml = looksLikeXml(text_), isIni = looksLikeIni(text_);
     isJson_ = !isXml && !isIni;
     Result<PresetText> file = isXml   ? readXmlExport(text_, where_)
@@ -126,7 +129,7 @@ class Reader {
   }
 
   bool sealHolds() {
-    const auto seal = checkSeal(text_, where_);
+    const auto seal = checkSeal(whole_, where_);
     findings_.add(seal.findings());
     if (!seal) return false;
     const RawParameter* const checksum = member("checksum");
@@ -216,7 +219,7 @@ class Reader {
     }
   }
 
-  std::string_view text_;
+  std::string_view whole_, text_;  ///< with and without a byte order mark
   std::string where_;
   int depth_;
   bool isExport_ = false, isJson_ = true;
