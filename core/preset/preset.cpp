@@ -250,7 +250,7 @@ std::vector<std::string_view> shippedPresets() {
 }
 
 Result<Preset> loadPreset(const std::string& nameOrFile) {
-  return load(nameOrFile, {}, 0);
+  return withinMemory(nameOrFile, [&] { return load(nameOrFile, {}, 0); });
 }
 
 Result<Preset> parsePreset(std::string_view text, const std::string& where) {
