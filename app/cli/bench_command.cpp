@@ -128,7 +128,6 @@ bool readPresets(const BenchOptions& arguments, harness::Plan& plan) {
 }
 
 int run(const BenchOptions& arguments) {
-  stopWhenAsked();
   harness::Plan plan;
   plan.version = TRIMTAB_VERSION;
   plan.frames = arguments.frames;
@@ -191,6 +190,7 @@ void addBench(CLI::App& app, int& exitCode) {
                     "those that may have an effect on a measured frame");
   command->add_flag("--json", arguments->json, "One JSON document on standard output");
   command->add_option("-o,--output", arguments->output, "Folder for the results")->required();
+  stopWhenAsked(*command);
   command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
 }
 

@@ -21,7 +21,6 @@ struct ExperimentOptions {
 using Run = Result<experiment::Report> (*)(const experiment::Setup&);
 
 int run(const ExperimentOptions& arguments, Run experiment) {
-  stopWhenAsked();
   // Opening the terrain may bake it first.
   if (!mayWriteTo(arguments.output)) return kRefused;
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
@@ -95,6 +94,7 @@ void addExperiment(CLI::App& app, int& exitCode) {
     }
     command->add_option("-o,--output", arguments->output, "Folder for JSON, CSV and plots");
     command->add_flag("--json", arguments->json, "One JSON document on standard output");
+    stopWhenAsked(*command);
     command->callback([arguments, run = named.run, &exitCode] { exitCode = cli::run(*arguments, run); });
   }
 }

@@ -5,6 +5,7 @@
 #include "app/link/link.h"
 #include "commands.h"
 #include "feed_work.h"
+#include "progress.h"
 #include "trimtab/host/flight.h"
 
 namespace trimtab::cli {
@@ -144,10 +145,8 @@ void addFeed(CLI::App& app, int& exitCode) {
   CLI::App* feed = app.add_subcommand("feed", "Play, record and watch a host's feed over UDP");
   feed->require_subcommand(1);
   const auto run = [options, &exitCode](CLI::App* command, int (*work)(const FeedOptions&)) {
-    command->callback([options, &exitCode, work] {
-      catchStop();
-      exitCode = work(*options);
-    });
+    stopWhenAsked(*command);
+    command->callback([options, &exitCode, work] { exitCode = work(*options); });
   };
 
   CLI::App* playing = feed->add_subcommand("play", "Send a flight as a host would");

@@ -1,15 +1,10 @@
 #include "feed_work.h"
 
-#include <csignal>
 #include <cstdio>
 #include <thread>
 
-#include "app/link/stop_signals.h"
-
 namespace trimtab::cli {
 namespace {
-
-volatile std::sig_atomic_t stopped = 0;
 
 const char* protocolText(WireProtocol protocol) {
   switch (protocol) {
@@ -24,14 +19,6 @@ const char* protocolText(WireProtocol protocol) {
 }
 
 }  // namespace
-
-void catchStop() {
-  onStopSignals([](int) { stopped = 1; });
-}
-
-bool isStopped() {
-  return stopped != 0;
-}
 
 void nap() {
   std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -7,15 +7,12 @@
 
 #include "app/link/link.h"
 #include "app/link/link_watch.h"
+#include "trimtab/preset/stop_request.h"
 
 /// What the commands play, record and show of `feed` share.
 namespace trimtab::cli {
 
 using Clock = std::chrono::steady_clock;
-
-/// From now on SIGINT, SIGTERM and SIGHUP ask the work to stop, so that what was received is kept.
-void catchStop();
-bool isStopped();
 
 /// When a command ends by itself; without limits only an interrupt ends it.
 struct Ending {
@@ -25,7 +22,7 @@ struct Ending {
 
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - begin).count(); }
   bool reached(std::uint64_t count) const {
-    return isStopped() || (packets > 0 && count >= packets) || (seconds > 0 && elapsed() >= seconds);
+    return stopRequested() || (packets > 0 && count >= packets) || (seconds > 0 && elapsed() >= seconds);
   }
 };
 

@@ -20,7 +20,6 @@ struct LeverageOptions {
 };
 
 int run(const LeverageOptions& arguments) {
-  stopWhenAsked();
   if (!mayWriteTo(arguments.output) || !mayWriteFile(arguments.losses)) return kRefused;
   const auto preset = loadPreset(arguments.setup.preset);
   std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
@@ -64,6 +63,7 @@ void addLeverage(CLI::App& app, int& exitCode) {
   command->add_option("--losses", arguments->losses,
                       "Preset file that receives what the arbiter loses by each lever, hold.loss_*");
   command->add_flag("--json", arguments->json, "One JSON document on standard output");
+  stopWhenAsked(*command);
   command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
 }
 

@@ -3,7 +3,9 @@
 #include <cstring>
 #include <iostream>
 
+#include "app/link/stop_signals.h"
 #include "commands.h"
+#include "progress.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/units/labelled.h"
@@ -40,6 +42,7 @@ int finished(int exitCode) {
 }  // namespace trimtab::cli
 
 int main(int argc, char** argv) {
+  trimtab::handleStopSignals();
   trimtab::failLargeWrites();
   CLI::App app{"Trimtab: tune culling and level of detail of image generators"};
   app.set_version_flag("--version", TRIMTAB_VERSION);
@@ -54,6 +57,9 @@ int main(int argc, char** argv) {
   trimtab::cli::addExperiment(app, exitCode);
   trimtab::cli::addLeverage(app, exitCode);
   trimtab::cli::addWeather(app, exitCode);
+  app.parse_complete_callback([&app] {
+    if (!trimtab::cli::stopsWhenAsked(app)) trimtab::endAtStopSignals();
+  });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

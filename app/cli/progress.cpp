@@ -1,23 +1,30 @@
 #include "progress.h"
 
-#include <atomic>
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <iomanip>
 #include <iostream>
+#include <vector>
 
-#include "app/link/stop_signals.h"
+#include "trimtab/preset/stop_request.h"
 
 namespace trimtab::cli {
 namespace {
 
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::vector<const CLI::App*> stopping;
 
 }  // namespace
 
-void stopWhenAsked() {
-  interrupted = false;
-  onStopSignals([](int) { interrupted = true; });
+void stopWhenAsked(const CLI::App& command) {
+  stopping.push_back(&command);
+}
+
+bool stopsWhenAsked(const CLI::App& program) {
+  const auto given = program.get_subcommands();
+  return std::any_of(given.begin(), given.end(), [](const CLI::App* command) {
+    return std::find(stopping.begin(), stopping.end(), command) != stopping.end() || stopsWhenAsked(*command);
+  });
 }
 
 std::function<bool(double, const std::string&)> progressLines() {
@@ -30,7 +37,7 @@ std::function<bool(double, const std::string&)> progressLines() {
           said = what;
           std::cerr << std::setw(3) << static_cast<int>(fraction * 100) << " % " << what << '\n';
         }
-        return !interrupted;
+        return !stopRequested();
       };
 }
 

@@ -3,11 +3,17 @@
 #include <functional>
 #include <string>
 
+namespace CLI {
+class App;
+}
+
 namespace trimtab::cli {
 
-/// From now on a request to stop (app/link/stop_signals.h) asks the work to stop instead of ending the
-/// program, so that no half-written file is left.
-void stopWhenAsked();
+/// Says of a command that its work looks at stopRequested(), so that a signal asks it to stop instead of
+/// ending the program, and no half-written file is left.
+void stopWhenAsked(const CLI::App& command);
+/// Reports whether the command that the program was called with is one of these.
+bool stopsWhenAsked(const CLI::App& program);
 
 /// Returns a function that prints progress on standard error, at most a few lines per second. It returns
 /// false once the program was asked to stop.

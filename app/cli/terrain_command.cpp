@@ -34,8 +34,8 @@ void addTerrain(CLI::App& app, int& exitCode) {
   makeSample->add_option("--post-m", sample->options.postM, "Distance of posts")
       ->capture_default_str()
       ->check(CLI::Range(5.0, 2000.0));
+  stopWhenAsked(*makeSample);
   makeSample->callback([sample, &exitCode] {
-    stopWhenAsked();
     sample->options.progress = progressLines();
     const auto done = terrain::writeSample(sample->output, sample->options);
     report(done.findings());
@@ -61,8 +61,8 @@ void addTerrain(CLI::App& app, int& exitCode) {
   makeCountry->add_option("--post-m", country->options.postM, "Distance of posts")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 2000.0));
+  stopWhenAsked(*makeCountry);
   makeCountry->callback([country, &exitCode] {
-    stopWhenAsked();
     country->options.progress = progressLines();
     const auto done = terrain::writeCountry(country->output, country->options);
     report(done.findings());
@@ -89,8 +89,8 @@ void addTerrain(CLI::App& app, int& exitCode) {
                    "Size of pixels, metres; the nearest whole part of the distance of posts is taken")
       ->capture_default_str()
       ->check(CLI::Range(1.0, 2000.0));
+  stopWhenAsked(*makePicture);
   makePicture->callback([picture, &exitCode] {
-    stopWhenAsked();
     picture->options.progress = progressLines();
     const auto done = terrain::writeLandPicture(picture->elevation, picture->output, picture->options);
     report(done.findings());
@@ -147,8 +147,8 @@ void addTerrain(CLI::App& app, int& exitCode) {
                                            "for several processes, or machines that "
                                            "share its folder");
   makeBake->add_flag("--join", bake->join, "Make the database of what all parts made")->excludes(part);
+  stopWhenAsked(*makeBake);
   makeBake->callback([bake, &exitCode] {
-    stopWhenAsked();
     terrain::BakeOptions options;
     options.sources.assign(bake->sources.begin(), bake->sources.end());
     options.output = bake->output;

@@ -56,8 +56,8 @@ void addTerrainExport(CLI::App& terrain, int& exitCode) {
       ->add_option("-o,--output", btg->options.output,
                    "Folder to write, for FlightGear's --fg-scenery; it must not exist or be empty")
       ->required();
+  stopWhenAsked(*write);
   write->callback([btg, &exitCode] {
-    stopWhenAsked();
     btg->options.progress = progressLines();
     exitCode = exportBtg(*btg);
   });

@@ -85,7 +85,6 @@ void printJson(const experiment::CalibratedWeather& calibrated, double othersSha
 }
 
 int calibrate(const WeatherOptions& arguments) {
-  stopWhenAsked();
   if (!mayWriteFile(arguments.output)) return kRefused;
   const auto preset = loadPreset(arguments.setup.preset);
   const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
@@ -136,6 +135,7 @@ void addWeather(CLI::App& app, int& exitCode) {
                       "Preset file that receives far planes and densities, but none of a step whose times "
                       "contradict each other; then the exit code is 1");
   command->add_flag("--json", arguments->json, "One JSON document on standard output");
+  stopWhenAsked(*command);
   command->callback([arguments, &exitCode] { exitCode = calibrate(*arguments); });
 }
 

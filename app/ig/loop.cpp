@@ -35,7 +35,7 @@ class Loop {
       const bool news = run_.feed.advance(run_.session, start);
       bool stale = false;
       if (!run_.surface.handleEvents(stale)) break;
-      stale |= reloaded(start);
+      stale |= reloaded();
       if (news || ((stale || viewerIsDue(start)) && run_.session.hasState()))
         drawFrame(start);
       else if (run_.feed.finished())
@@ -72,7 +72,6 @@ class Loop {
   void sleep() {
     const double now = link::now();
     double seconds = run_.feed.dueIn(now);
-    if (run_.watch) seconds = std::fmin(seconds, FileWatch::kPeriodS);
     if (run_.options.listen) seconds = std::fmin(seconds, link::LinkWatch::kLookS);
     if (run_.health) seconds = std::fmin(seconds, std::fmax(run_.health->dueIn(now), 0));
     const LinkState link = run_.session.linkState(now);
@@ -82,18 +81,16 @@ class Loop {
   }
 
   /// Whether a changed preset or terrain took effect.
-  bool reloaded(double now) {
-    if (!run_.watch || now - lastWatch_ < FileWatch::kPeriodS) return false;
-    lastWatch_ = now;
-    const bool terrain = terrainReloaded();
-    return presetReloaded() || terrain;
+  bool reloaded() {
+    if (!run_.watch) return false;
+    bool stale = false;
+    while (const auto terrain = run_.terrainWatch->take()) stale |= takes(*terrain);
+    while (const auto preset = run_.watch->take()) stale |= takes(*preset);
+    return stale;
   }
 
-  /// Whether another terrain took the place of the last one. The image stands still while it opens. A refused
-  /// one is reported and changes nothing.
-  bool terrainReloaded() {
-    if (!run_.terrainWatch->changed()) return false;
-    const auto database = openDatabase(run_.options.terrain);
+  /// Whether another terrain took the place of the last one. A refused one is reported and changes nothing.
+  bool takes(const Result<std::shared_ptr<const terrain::Database>>& database) {
     report(database.findings());
     if (!database) {
       ++summary_.terrainsRefused;
@@ -111,17 +108,15 @@ class Loop {
   }
 
   /// Whether a changed preset took effect. A refused one is reported and changes nothing.
-  bool presetReloaded() {
-    const std::optional<Result<ActivePreset>> changed = run_.watch->poll();
-    if (!changed) return false;
-    report(changed->findings());
-    if (!*changed) {
+  bool takes(const Result<ActivePreset>& preset) {
+    report(preset.findings());
+    if (!preset) {
       ++summary_.presetsRefused;
       std::cerr << "warning: " << run_.options.preset << ": refused; the last good preset stays" << std::endl;
       return false;
     }
     ++summary_.presetReloads;
-    run_.session.setParameters((*changed)->parameters);
+    run_.session.setParameters(preset->parameters);
     std::cerr << "note: " << run_.options.preset << ": loaded again" << std::endl;
     return true;
   }
@@ -189,7 +184,7 @@ class Loop {
   FrameStatistics stages_;
   std::optional<int> lastBand_;
   std::vector<TraceRow> rows_;
-  double lastFrame_ = 0, lastWatch_ = 0;
+  double lastFrame_ = 0;
   bool saidAnew_ = false;  ///< that the cost model began anew
 };
 

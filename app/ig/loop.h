@@ -21,6 +21,8 @@
 
 namespace trimtab::ig {
 
+using TerrainWatch = Watch<std::shared_ptr<const terrain::Database>>;
+
 /// Everything that a run needs, opened and checked.
 struct Run {
   const Options& options;
@@ -32,8 +34,8 @@ struct Run {
   Damage& damage;
   TraceFile* trace = nullptr;
   Health* health = nullptr;
-  PresetWatch* watch = nullptr;       ///< made before the preset is loaded, so that no change is missed
-  FileWatch* terrainWatch = nullptr;  ///< made before the terrain is opened
+  PresetWatch* watch = nullptr;          ///< made before the preset is loaded, so that no change is missed
+  TerrainWatch* terrainWatch = nullptr;  ///< made before the terrain is opened
 };
 
 struct Summary {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "app/link/stop_signals.h"
 #include "loop.h"
 #include "trimtab/hold/cost_model_file.h"
 #include "trimtab/preset/file_io.h"
@@ -69,10 +70,15 @@ int runWith(const Options& options) {
   const Wake wake;
   // All inputs are looked at before any refusal ends the program: one run tells everything that is wrong.
   std::optional<PresetWatch> watch;
-  if (options.watch) watch.emplace(options.preset);
+  const auto news = [&wake] { wake.post(); };
+  if (options.watch)
+    watch.emplace(
+        options.preset, [&options] { return loadActivePreset(options.preset); }, news);
   const Result<ActivePreset> preset = loadActivePreset(options.preset);
-  std::optional<FileWatch> terrainWatch;
-  if (options.watch) terrainWatch.emplace(options.terrain / terrain::kManifestName);
+  std::optional<TerrainWatch> terrainWatch;
+  if (options.watch)
+    terrainWatch.emplace(
+        options.terrain / terrain::kManifestName, [&options] { return openDatabase(options.terrain); }, news);
   Result<std::shared_ptr<const terrain::Database>> database = openDatabase(options.terrain);
   Result<std::unique_ptr<Feed>> feed = openFeed(options, wake);
   Result<HeadInput> head = openHeadInput(options);
@@ -151,6 +157,7 @@ int runWith(const Options& options) {
 }  // namespace trimtab::ig
 
 int main(int argc, char** argv) {
+  trimtab::handleStopSignals();
   trimtab::failLargeWrites();
   ::mallopt(M_MMAP_THRESHOLD, trimtab::ig::kReturnedBlock);
   int exitCode = trimtab::ig::kDone;

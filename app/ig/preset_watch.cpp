@@ -19,9 +19,4 @@ Result<ActivePreset> loadActivePreset(const std::string& nameOrFile) {
   return {ActivePreset{preset->name, *valid}, std::move(findings)};
 }
 
-std::optional<Result<ActivePreset>> PresetWatch::poll() {
-  if (!watch_.changed()) return std::nullopt;
-  return loadActivePreset(file_);
-}
-
 }  // namespace trimtab::ig

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <atomic>
-
 namespace trimtab::ig {
 
-/// Ends the sleep of the main thread on a packet or a signal. While it exists, SIGINT, SIGTERM and
-/// SIGHUP set `stop`; a second signal more than a second later ends the program at once.
+/// Ends the sleep of the main thread on a packet, or once the program is asked to stop
+/// (app/link/stop_signals.h).
 class Wake {
  public:
   Wake();

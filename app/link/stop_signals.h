@@ -1,21 +1,18 @@
 #pragma once
 
-#include <csignal>
-
 namespace trimtab {
 
-/// Calls `handler` whenever the program is asked to stop: by SIGINT, by SIGTERM, and by SIGHUP when its
-/// terminal is lost, unless nohup(1) has that ignored. `handler` may only do what is safe in a signal
-/// handler.
-inline void onStopSignals(void (*handler)(int), int flags = 0) {
-  struct sigaction action {};
-  action.sa_handler = handler;
-  action.sa_flags = flags;
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-    struct sigaction before {};
-    ::sigaction(number, nullptr, &before);
-    if (number != SIGHUP || before.sa_handler != SIG_IGN) ::sigaction(number, &action, nullptr);
-  }
-}
+/// From now on SIGINT, SIGTERM, and SIGHUP when the terminal is lost (unless nohup(1) has that ignored) call
+/// requestStop(); another one more than a second later ends the program at once. Every main() begins with it,
+/// so that a program is asked to stop in the same way at any time.
+void handleStopSignals();
+
+/// From now on the first of these signals ends the program at once, for work that never looks at
+/// stopRequested(). One that came already ends it now.
+void endAtStopSignals();
+
+/// Adds 1 to the count of an eventfd once the program is asked to stop, or now if it was asked already; -1:
+/// to none.
+void countStopSignals(int eventDescriptor);
 
 }  // namespace trimtab

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <signal.h>
-#include <sys/socket.h>
+#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <QApplication>
@@ -19,22 +18,16 @@
 
 namespace {
 
-int signalPipe[2] = {-1, -1};
-
-void onSignal(int) {
-  const char byte = 1;
-  if (::write(signalPipe[1], &byte, 1) < 0) _exit(130);
-}
-
-/// A request to stop ends the event loop; the handler itself does no more than one write.
+/// A request to stop ends the event loop, at its start if it came before.
 void endOnSignals(QApplication& app, trimtab::workbench::MainWindow& window) {
-  if (::socketpair(AF_UNIX, SOCK_STREAM, 0, signalPipe) != 0) return;
-  auto* notifier = new QSocketNotifier(signalPipe[0], QSocketNotifier::Read, &app);
+  const int asked = ::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+  if (asked < 0) return trimtab::endAtStopSignals();
+  auto* notifier = new QSocketNotifier(asked, QSocketNotifier::Read, &app);
   QObject::connect(notifier, &QSocketNotifier::activated, &app, [&app, &window] {
     window.keepUnsavedEdits();
     app.exit(0);
   });
-  trimtab::onStopSignals(onSignal, SA_RESTART);
+  trimtab::countStopSignals(asked);
 }
 
 /// While QApplication is made: Qt would abort where there is no display to be had.
@@ -53,6 +46,7 @@ bool displayNamed() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  trimtab::handleStopSignals();
   using namespace trimtab::workbench;
   trimtab::failLargeWrites();
   QStringList arguments;

@@ -7,6 +7,7 @@
 #include "trimtab/fuzzy/membership.h"
 #include "trimtab/preset/rules.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/units/finding_list.h"
 #include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
 
@@ -348,7 +349,9 @@ Result<TuningParameters> readRuleFile(std::string_view text, const std::string& 
                                       const TuningParameters& onto) {
   const Result<System> system = fuzzy_system::readSystem(text, where, format);
   if (!system) return system.findings();
-  return parametersOf(*system, where, onto);
+  auto parameters = parametersOf(*system, where, onto);
+  if (!parameters) return firstOf(parameters.findings(), where);
+  return parameters;
 }
 
 }  // namespace trimtab

@@ -163,7 +163,9 @@ Result<Flight> flightFromDatagrams(std::span<const CapturedDatagram> datagrams, 
   return {std::move(flight), std::move(findings)};
 }
 
-Result<Flight> readFlight(const std::filesystem::path& file, double defaultStepS) {
+namespace {
+
+Result<Flight> readAnyFlight(const std::filesystem::path& file, double defaultStepS) {
   const std::string where = file.string();
   const Result<std::string> read = readWhole(file, kLargestRecording);
   if (!read) return read.findings();
@@ -186,6 +188,12 @@ Result<Flight> readFlight(const std::filesystem::path& file, double defaultStepS
   auto flight = parse();
   if (flight) (*flight).name = file.filename().string();
   return flight;
+}
+
+}  // namespace
+
+Result<Flight> readFlight(const std::filesystem::path& file, double defaultStepS) {
+  return withinMemory(file, [&] { return readAnyFlight(file, defaultStepS); });
 }
 
 AircraftState stateAt(const Flight& flight, double time) {

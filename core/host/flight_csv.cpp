@@ -157,8 +157,7 @@ bool Parser::nextLine(std::string_view& line) {
 }
 
 bool Parser::readHeader() {
-  constexpr std::string_view kMark = "\xef\xbb\xbf";
-  if (text_.substr(0, kMark.size()) == kMark) text_.remove_prefix(kMark.size());
+  text_ = withoutByteOrderMark(text_);
   std::string_view line;
   if (!nextLine(line)) {
     refuse("", "a header that names the columns", "an empty file");

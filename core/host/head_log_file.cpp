@@ -8,6 +8,7 @@
 #include "limits.h"
 #include "trimtab/host/head_log.h"
 #include "trimtab/preset/file_io.h"
+#include "trimtab/units/text.h"
 
 namespace trimtab {
 namespace {
@@ -344,14 +345,15 @@ Result<HeadLog> Reader::finished() {
 }  // namespace
 
 Result<HeadLog> parseHeadLog(std::string_view text, const std::string& where, BadRows badRows) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  return Reader(text, where, badRows).read();
+  return Reader(withoutByteOrderMark(text), where, badRows).read();
 }
 
 Result<HeadLog> readHeadLog(const std::filesystem::path& file, BadRows badRows) {
-  const Result<std::string> text = readWhole(file, kLargestRecording);
-  if (!text) return text.findings();
-  return parseHeadLog(*text, file.string(), badRows);
+  return withinMemory(file, [&]() -> Result<HeadLog> {
+    const Result<std::string> text = readWhole(file, kLargestRecording);
+    if (!text) return text.findings();
+    return parseHeadLog(*text, file.string(), badRows);
+  });
 }
 
 }  // namespace trimtab

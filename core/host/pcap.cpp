@@ -165,9 +165,11 @@ Result<std::vector<CapturedDatagram>> parsePcap(std::string_view text, const std
 }
 
 Result<std::vector<CapturedDatagram>> readPcap(const std::filesystem::path& file) {
-  const Result<std::string> bytes = readWhole(file, kLargestRecording);
-  if (!bytes) return bytes.findings();
-  return parsePcap(*bytes, file.string());
+  return withinMemory(file, [&]() -> Result<std::vector<CapturedDatagram>> {
+    const Result<std::string> bytes = readWhole(file, kLargestRecording);
+    if (!bytes) return bytes.findings();
+    return parsePcap(*bytes, file.string());
+  });
 }
 
 namespace {

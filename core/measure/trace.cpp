@@ -144,10 +144,12 @@ bool isTrace(std::string_view text) {
 bool isTraceFile(const std::filesystem::path& file) {
   std::error_code error;
   // What a pipe holds could not be read again, and a device may have no line end.
-  if (!std::filesystem::is_regular_file(file, error)) return false;
+  if (!std::filesystem::is_regular_file(file, error) || !checkIsData(file)) return false;
+  constexpr std::size_t kLongestHeader = std::size_t{1} << 16;
+  std::string header(kLongestHeader, '\0');
   std::ifstream in(file, std::ios::binary);
-  std::string header;
-  std::getline(in, header);
+  in.read(header.data(), static_cast<std::streamsize>(header.size()));
+  header.resize(static_cast<std::size_t>(in.gcount()));
   return isTrace(header);
 }
 
@@ -186,9 +188,11 @@ Result<std::vector<TraceRow>> parseTrace(std::string_view text, const std::strin
 }
 
 Result<std::vector<TraceRow>> readTrace(const std::filesystem::path& file) {
-  const Result<std::string> text = readWhole(file, kLargestRecording);
-  if (!text) return text.findings();
-  return parseTrace(*text, file.string());
+  return withinMemory(file, [&]() -> Result<std::vector<TraceRow>> {
+    const Result<std::string> text = readWhole(file, kLargestRecording);
+    if (!text) return text.findings();
+    return parseTrace(*text, file.string());
+  });
 }
 
 std::vector<TraceDifference> decideAgain(const std::vector<TraceRow>& trace,

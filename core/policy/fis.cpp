@@ -86,7 +86,7 @@ class Reader {
     // Rules are read last, since variables may follow them.
     for (const auto& [rule, text] : rules_)
       if (!system_.inputs.empty()) readRule(rule, text);
-    if (!lines_.findings().empty()) return lines_.findings();
+    if (!lines_.empty()) return lines_.findings();
     return std::move(system_);
   }
 
@@ -119,6 +119,8 @@ class Reader {
     const bool input = name.starts_with("Input");
     if (input || name.starts_with("Output")) {
       auto& list = input ? system_.inputs : system_.outputs;
+      if (list.size() == kMostVariables)
+        return lines_.refuse(name, "at most " + std::to_string(kMostVariables) + " of a kind", "more");
       variable_ = &list.emplace_back();
       variable_->where = lines_.place();
       const std::string wanted = (input ? "Input" : "Output") + std::to_string(list.size());

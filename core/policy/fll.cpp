@@ -49,7 +49,7 @@ class Reader {
     if (system_.outputs.empty()) lines_.refuse("OutputVariable", "one", "none");
     // Rules are read last, since variables may follow them.
     for (const auto& [rule, text] : rules_) readRule(rule, text);
-    if (!lines_.findings().empty()) return lines_.findings();
+    if (!lines_.empty()) return lines_.findings();
     return std::move(system_);
   }
 
@@ -73,7 +73,10 @@ class Reader {
       system_.name = value;
     } else if (key == "InputVariable" || key == "OutputVariable") {
       block_ = key;
-      variable_ = &(key == "InputVariable" ? system_.inputs : system_.outputs).emplace_back();
+      auto& list = key == "InputVariable" ? system_.inputs : system_.outputs;
+      if (list.size() == kMostVariables)
+        return lines_.refuse(key, "at most " + std::to_string(kMostVariables) + " of a kind", "more");
+      variable_ = &list.emplace_back();
       variable_->name = value;
       variable_->where = lines_.place();
     } else if (key == "RuleBlock") {

@@ -21,8 +21,7 @@ std::optional<RuleFormat> ruleFormatOf(const std::filesystem::path& file) {
 namespace trimtab::fuzzy_system {
 namespace {
 
-/// Nobody reads more of a file that is of another kind.
-constexpr std::size_t kMostFindings = 100, kLongestExpected = 400, kLongestLine = 32768;
+constexpr std::size_t kLongestExpected = 400, kLongestLine = 32768;
 
 /// So near that a step between two points is meant; no number so small that other programs refuse it.
 double justBelow(double x) {
@@ -87,9 +86,8 @@ std::optional<std::string_view> Lines::next() {
 
 void Lines::refuseAt(std::string place, std::string_view key, std::string expected, std::string_view found) {
   if (expected.size() > kLongestExpected) expected.replace(kLongestExpected, std::string::npos, " ...");
-  if (findings_.size() < kMostFindings)
-    findings_.push_back({Severity::error, std::move(place), std::string(key.substr(0, 60)),
-                         std::move(expected), found.empty() ? "nothing" : std::string(found.substr(0, 80))});
+  findings_.add({Severity::error, std::move(place), std::string(key.substr(0, 60)), std::move(expected),
+                 found.empty() ? "nothing" : std::string(found.substr(0, 80))});
 }
 
 Result<std::string> systemText(const System& system, RuleFormat format) {
@@ -103,7 +101,7 @@ Result<System> readSystem(std::string_view text, const std::string& where, RuleF
   Lines notes({}, where);
   checkNames(*system, notes);
   checkNorms(*system, notes);
-  if (!notes.findings().empty()) return notes.findings();
+  if (!notes.empty()) return notes.findings();
   return system;
 }
 

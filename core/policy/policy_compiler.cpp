@@ -164,9 +164,13 @@ class PolicyCompiler {
   }
 
   std::string termsOf(Signal signal) const {
+    // Each part of each rule may ask for it.
+    constexpr std::size_t kLongest = 400;
     std::string names;
-    for (const PolicyTerm& term : policy_.terms)
+    for (const PolicyTerm& term : policy_.terms) {
       if (term.signal == signal) names += (names.empty() ? ": " : ", ") + term.name;
+      if (names.size() > kLongest) return "a term of " + std::string(rowOf(signal).key) + names + " ...";
+    }
     return "a term of " + std::string(rowOf(signal).key) + (names.empty() ? ", which has none" : names);
   }
 

@@ -6,6 +6,7 @@
 
 #include "condition.h"
 #include "trimtab/policy/compiled_policy.h"
+#include "trimtab/units/finding_list.h"
 #include "trimtab/units/number.h"
 #include "words.h"
 
@@ -94,10 +95,10 @@ class Translation {
     if (findings_.empty())
       for (const fuzzy_system::Rule& rule : system_.rules) addRule(rule);
     if (policy_.rules.empty() && findings_.empty()) refuse(where_, "rule", "at least one rule", "none");
-    if (!findings_.empty()) return findings_;
+    if (!findings_.empty()) return firstOf(findings_, where_);
     const auto compiled = compile(policy_, where_);
     if (compiled) return std::move(policy_);
-    findings_ = compiled.findings();
+    findings_ = firstOf(compiled.findings(), where_);
     for (Finding& f : findings_) f.where = placeOf(f.key);
     return findings_;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "trimtab/policy/fuzzy_system.h"
+#include "trimtab/units/finding_list.h"
 #include "trimtab/units/text.h"
 
 /// For the two languages of fuzzy_system.h.
@@ -12,7 +13,7 @@ Result<std::string> toMatlab(const System& system);
 Result<System> readMatlab(std::string_view text, const std::string& where);
 
 /// A reader refuses what is beyond, so that nothing takes long; policies and rule bases have less.
-inline constexpr std::size_t kMostTerms = 4096, kMostRules = 2048;
+inline constexpr std::size_t kMostTerms = 4096, kMostRules = 2048, kMostVariables = 256;
 
 /// Returns a reason as the one line that a comment is: control characters become blanks.
 std::string oneLine(std::string_view reason);
@@ -22,7 +23,7 @@ std::string numbersText(const std::vector<double>& numbers);
 /// The lines of a file, and what is wrong with them.
 class Lines {
  public:
-  Lines(std::string_view text, const std::string& where) : rest_(text), where_(where) {}
+  Lines(std::string_view text, const std::string& where) : rest_(withoutByteOrderMark(text)), where_(where) {}
 
   /// Goes to the next line and returns it without blanks around it; nothing at the end.
   std::optional<std::string_view> next();
@@ -33,13 +34,14 @@ class Lines {
     refuseAt(place(), key, std::move(expected), found);
   }
   void refuseAt(std::string place, std::string_view key, std::string expected, std::string_view found);
-  const Findings& findings() const { return findings_; }
+  bool empty() const { return findings_.empty(); }
+  Findings findings() const { return findings_.all(where_); }
 
  private:
   std::string_view rest_;
   const std::string& where_;
   std::size_t line_ = 0;
-  Findings findings_;
+  FindingList findings_;
 };
 
 }  // namespace trimtab::fuzzy_system

@@ -22,32 +22,6 @@ namespace trimtab {
 
 namespace {
 
-/// A pipe or a device may never end: neither its bytes nor the wait for them may be endless.
-class Stream {
- public:
-  explicit Stream(int fd) : polled_{fd, POLLIN, 0} {}
-  /// Whether there is something to read, or the end.
-  bool ready() {
-    constexpr int kNextMs = 1000;
-    constexpr auto kAll = std::chrono::seconds(5);
-    int ready = 0;
-    while (Clock::now() - begin_ < kAll && (ready = ::poll(&polled_, 1, kNextMs)) < 0 && errno == EINTR) {
-    }
-    return ready > 0;
-  }
-  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
-
- private:
-  using Clock = std::chrono::steady_clock;
-  pollfd polled_;
-  Clock::time_point begin_ = Clock::now();
-};
-
-std::string sizeText(std::size_t bytes) {
-  constexpr std::size_t kMiB = std::size_t{1} << 20;
-  return std::to_string(bytes / kMiB) + " MiB";
-}
-
 /// For a pipe or device there is nothing to keep, and renaming over it would destroy it. Nobody may be at the
 /// other end of a pipe, or take nothing from it.
 Result<Done> writeInPlace(const std::filesystem::path& file, std::string_view bytes) {
@@ -74,41 +48,6 @@ Result<Done> writeInPlace(const std::filesystem::path& file, std::string_view by
 }
 
 }  // namespace
-
-Result<std::string> readWhole(const std::filesystem::path& file, std::size_t mostBytes) {
-  const std::string expected = "a readable file";
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    return Finding{Severity::error, file.string(), "", expected, "a folder"};
-  // Without O_NONBLOCK a FIFO would wait for a writer that may never come.
-  Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (!in.isOpen()) return refused(file, expected, errno);
-  struct stat about {};
-  if (::fstat(in.get(), &about) != 0) return refused(file, expected, errno);
-  std::optional<Stream> stream;
-  if (!S_ISREG(about.st_mode)) {
-    stream.emplace(in.get());
-    mostBytes = std::min(mostBytes, Stream::kMostBytes);
-  }
-  const auto tooLarge = [&] {
-    return Finding{Severity::error, file.string(), "", "at most " + sizeText(mostBytes), "more"};
-  };
-  if (static_cast<std::uint64_t>(about.st_size) > mostBytes) return tooLarge();
-  std::string bytes;
-  bytes.reserve(static_cast<std::size_t>(about.st_size));
-  std::vector<char> block(std::size_t{1} << 16);
-  for (;;) {
-    if (stream && !stream->ready())
-      return Finding{Severity::error, file.string(), "", "a file, or a pipe that ends",
-                     "one that is open after a second without a byte, or after five seconds"};
-    const ssize_t count = ::read(in.get(), block.data(), block.size());
-    if (count < 0 && (errno == EINTR || (stream && errno == EAGAIN))) continue;
-    if (count < 0) return refused(file, expected, errno);
-    if (count == 0) return bytes;
-    bytes.append(block.data(), static_cast<std::size_t>(count));
-    if (bytes.size() > mostBytes) return tooLarge();
-  }
-}
 
 Result<Done> writeAtomically(const std::filesystem::path& file, std::string_view bytes) {
   std::error_code failed;

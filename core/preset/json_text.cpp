@@ -228,6 +228,9 @@ Result<Done> checkSyntax(std::string_view text, const std::string& where) {
   if (Json::sax_parse(text.begin(), text.end(), &check)) return Done{};
   // "[json.exception.parse_error.101] parse error at line 3, column 7: what happened"
   std::string reason = check.reason;
+  // A text without its closing quote is quoted whole.
+  constexpr std::size_t kLongestReason = 300;
+  if (reason.size() > kLongestReason) reason.replace(kLongestReason, std::string::npos, " ...");
   if (const std::size_t end = reason.find("] "); end != std::string::npos) reason.erase(0, end + 2);
   if (const std::size_t end = reason.find(": ");
       end != std::string::npos && reason.starts_with("parse error"))
@@ -341,9 +344,15 @@ Result<ParameterValue> readValue(const ParameterRow& row, std::string_view value
 }
 
 std::string place(const std::string& where, std::string_view whole, std::size_t offset) {
-  const auto lines = std::count(
-      whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(std::min(offset, whole.size())), '\n');
-  return where + ":" + std::to_string(lines + 1);
+  return Places(where, whole).at(offset);
+}
+
+std::string Places::at(std::size_t offset) {
+  if (offset < read_) read_ = 0, line_ = 1;
+  const std::string_view next = whole_.substr(read_, offset - read_);
+  line_ += static_cast<std::size_t>(std::count(next.begin(), next.end(), '\n'));
+  read_ += next.size();
+  return where_ + ":" + std::to_string(line_);
 }
 
 }  // namespace trimtab::json

@@ -10,15 +10,15 @@ namespace trimtab {
 
 namespace {
 
-void rename(RawParameter& parameter, std::string_view key, Findings& notes) {
-  notes.push_back({Severity::note, parameter.where, parameter.key, "the key " + std::string(key),
-                   "its former name, taken as that"});
+void rename(RawParameter& parameter, std::string_view key, FindingList& notes) {
+  notes.add({Severity::note, parameter.where, parameter.key, "the key " + std::string(key),
+             "its former name, taken as that"});
   parameter.key = key;
 }
 
 /// Version 1 is the draft of the format: other names, and hysteresis in degrees of pitch, of which the
 /// published line makes 1/60 of membership each. It was never released; its kept file keeps this path in use.
-void fromVersion1(const TuningParameters&, std::vector<RawParameter>& parameters, Findings& notes) {
+void fromVersion1(const TuningParameters&, std::vector<RawParameter>& parameters, FindingList& notes) {
   for (RawParameter& p : parameters) {
     if (p.key == "culling.method") {
       rename(p, "culling.case", notes);
@@ -57,7 +57,7 @@ FuzzyRule* ruleLike(const FormerRule& former, RuleList& rules) {
 
 /// Version 2 had a fixed rule base: a key for the weight and one for the output of each of four rules. What a
 /// file leaves out, its base decides.
-void fromVersion2(const TuningParameters& base, std::vector<RawParameter>& parameters, Findings& notes) {
+void fromVersion2(const TuningParameters& base, std::vector<RawParameter>& parameters, FindingList& notes) {
   RuleList rules = base.scheme.rules;
   std::vector<RawParameter> kept;
   std::string where;
@@ -73,15 +73,14 @@ void fromVersion2(const TuningParameters& base, std::vector<RawParameter>& param
     const auto number = readNumber(p.value);
     FuzzyRule* const rule = ruleLike(*former, rules);
     if (!number || !std::isfinite(*number) || !rule) {
-      notes.push_back({Severity::error, p.where, p.key,
-                       rule ? "a number" : "room for its rule in the base's list",
-                       rule ? p.value.substr(0, 60) : std::to_string(rules.size) + " other rules"});
+      notes.add({Severity::error, p.where, p.key, rule ? "a number" : "room for its rule in the base's list",
+                 rule ? p.value.substr(0, 60) : std::to_string(rules.size) + " other rules"});
       continue;
     }
     (last == "weight" ? rule->weight : rule->output) = *number;
     if (where.empty()) where = p.where;
-    notes.push_back({Severity::note, p.where, p.key, "the key fuzzy.rules",
-                     "a part of it by a former name, taken as rule " + conditionsText(*rule, " and ")});
+    notes.add({Severity::note, p.where, p.key, "the key fuzzy.rules",
+               "a part of it by a former name, taken as rule " + conditionsText(*rule, " and ")});
   }
   if (!where.empty()) kept.push_back({"fuzzy.rules", json::valueText(*findRow("fuzzy.rules"), rules), where});
   parameters = std::move(kept);
@@ -94,19 +93,19 @@ struct WithdrawnChoice {
 };
 constexpr WithdrawnChoice kWithdrawnChoices[] = {{"culling.occlusion", "read_back", "depth_map"}};
 
-void replaceWithdrawn(std::vector<RawParameter>& parameters, Findings& notes) {
+void replaceWithdrawn(std::vector<RawParameter>& parameters, FindingList& notes) {
   for (RawParameter& p : parameters)
     for (const WithdrawnChoice& choice : kWithdrawnChoices)
       if (p.key == choice.key && json::readString(p.value) == choice.value) {
         p.value = '"' + std::string(choice.replacement) + '"';
-        notes.push_back({Severity::note, p.where, p.key, "a value of this version",
-                         std::string(choice.value) + ", which was withdrawn; " +
-                             std::string(choice.replacement) + " is used"});
+        notes.add({Severity::note, p.where, p.key, "a value of this version",
+                   std::string(choice.value) + ", which was withdrawn; " + std::string(choice.replacement) +
+                       " is used"});
       }
 }
 
 /// migrations[i] brings version i + 1 to version i + 2.
-constexpr void (*kMigrations[])(const TuningParameters&, std::vector<RawParameter>&, Findings&) = {
+constexpr void (*kMigrations[])(const TuningParameters&, std::vector<RawParameter>&, FindingList&) = {
     fromVersion1, fromVersion2};
 static_assert(std::size(kMigrations) == kPresetVersion - 1, "each older version needs its migration");
 
@@ -118,18 +117,19 @@ constexpr FormerBehaviour kFormerBehaviours[] = {{"weather.precipitation_form", 
 
 }  // namespace
 
-void keepFormerBehaviour(std::vector<RawParameter>& parameters, const std::string& where, Findings& notes) {
+void keepFormerBehaviour(std::vector<RawParameter>& parameters, const std::string& where,
+                         FindingList& notes) {
   for (const FormerBehaviour& former : kFormerBehaviours) {
     const auto has = [&](const RawParameter& p) { return p.key == former.key; };
     if (std::any_of(parameters.begin(), parameters.end(), has)) continue;
     parameters.push_back({std::string(former.key), '"' + std::string(former.value) + '"', where});
-    notes.push_back({Severity::note, where, std::string(former.key), "every parameter in an export",
-                     "an export older than it; " + std::string(former.value) + " is used, as it was then"});
+    notes.add({Severity::note, where, std::string(former.key), "every parameter in an export",
+               "an export older than it; " + std::string(former.value) + " is used, as it was then"});
   }
 }
 
 void migrate(int fromVersion, const TuningParameters& base, std::vector<RawParameter>& parameters,
-             Findings& notes) {
+             FindingList& notes) {
   for (int version = fromVersion; version < kPresetVersion; ++version)
     kMigrations[version - 1](base, parameters, notes);
   replaceWithdrawn(parameters, notes);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "trimtab/preset/parameters.h"
-#include "trimtab/units/result.h"
+#include "trimtab/units/finding_list.h"
 
 namespace trimtab {
 
@@ -20,11 +20,11 @@ struct RawParameter {
 /// withdrawn. Adds a note for each parameter that it changes, and an error for each value that it cannot
 /// convert. `base` holds the values of every parameter that the file leaves out.
 void migrate(int fromVersion, const TuningParameters& base, std::vector<RawParameter>& parameters,
-             Findings& notes);
+             FindingList& notes);
 
 /// Adds to the parameters of an export those that are younger than it and whose default would draw another
 /// image than the program that wrote it, with a note for each. A preset says only what differs from its base
 /// and follows the program; an export is what an image generator was accepted with. `where` is its file.
-void keepFormerBehaviour(std::vector<RawParameter>& parameters, const std::string& where, Findings& notes);
+void keepFormerBehaviour(std::vector<RawParameter>& parameters, const std::string& where, FindingList& notes);
 
 }  // namespace trimtab

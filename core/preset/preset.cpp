@@ -10,7 +10,9 @@
 #include "trimtab/preset/json_text.h"
 #include "trimtab/preset/rules.h"
 #include "trimtab/preset/sealed.h"
+#include "trimtab/units/finding_list.h"
 #include "trimtab/units/number.h"
+#include "trimtab/units/text.h"
 
 namespace trimtab {
 
@@ -55,12 +57,12 @@ Result<PresetText> readJsonPreset(std::string_view text, const std::string& wher
     return Finding{Severity::error, json::place(where, text, begin), "", "an object",
                    std::string(top.substr(0, 20))};
   PresetText file;
+  json::Places places(where, text);
   for (const json::Member& member : json::members(top, text)) {
-    file.members.push_back({member.key, std::string(member.value), json::place(where, text, member.at)});
+    file.members.push_back({member.key, std::string(member.value), places.at(member.at)});
     if (member.key != "parameters") continue;
     for (const json::Member& parameter : json::members(member.value, text))
-      file.parameters.push_back(
-          {parameter.key, std::string(parameter.value), json::place(where, text, parameter.at)});
+      file.parameters.push_back({parameter.key, std::string(parameter.value), places.at(parameter.at)});
   }
   return file;
 }
@@ -69,11 +71,13 @@ Result<PresetText> readJsonPreset(std::string_view text, const std::string& wher
 class Reader {
  public:
   Reader(std::string_view text, std::string where, std::filesystem::path folder, int depth)
-      : text_(text), where_(std::move(where)), depth_(depth) {
+      : whole_(text), text_(withoutByteOrderMark(text)), where_(std::move(where)), depth_(depth) {
     preset_.folder = std::move(folder);
   }
 
   Result<Preset> read() {
+    if (isUtf16(whole_))
+      return Finding{Severity::error, where_, "", "text in UTF-8", "UTF-16; save it again as UTF-8"};
     const bool isXml = looksLikeXml(text_), isIni = looksLikeIni(text_);
     isJson_ = !isXml && !isIni;
     Result<PresetText> file = isXml   ? readXmlExport(text_, where_)
@@ -83,22 +87,21 @@ class Reader {
     for (const RawParameter& member : file->members)
       if (const auto [at, isNew] = top_.emplace(member.key, member); !isNew)
         refuse(member.where, member.key, "each member once", "it a second time");
-    if (hasError(findings_) || !readFormat()) return findings_;
-    if (isExport_ && !sealHolds()) return findings_;
+    if (findings_.hasError() || !readFormat()) return findings_.all(where_);
+    if (isExport_ && !sealHolds()) return findings_.all(where_);
     const int version = readVersion();
-    if (version == 0) return findings_;
+    if (version == 0) return findings_.all(where_);
     readTexts();
     readBase();
     readParameters(version, std::move(file.value().parameters));
-    if (hasError(findings_)) return findings_;
+    if (findings_.hasError()) return findings_.all(where_);
     for (Finding& f : ruleFindings(preset_.parameters)) addPlaced(std::move(f));
-    return {std::move(preset_), std::move(findings_)};
+    return {std::move(preset_), findings_.all(where_)};
   }
 
  private:
   void refuse(std::string where, std::string key, std::string expected, std::string found) {
-    findings_.push_back(
-        {Severity::error, std::move(where), std::move(key), std::move(expected), std::move(found)});
+    findings_.add({Severity::error, std::move(where), std::move(key), std::move(expected), std::move(found)});
   }
   /// Refuses a member, or what should be there.
   void refuseMember(const std::string& key, std::string expected) {
@@ -109,7 +112,7 @@ class Reader {
   void addPlaced(Finding f) {
     const auto at = places_.find(f.key);
     f.where = at == places_.end() ? where_ : at->second;
-    findings_.push_back(std::move(f));
+    findings_.add(std::move(f));
   }
   const RawParameter* member(const std::string& key) const {
     const auto at = top_.find(key);
@@ -126,11 +129,9 @@ class Reader {
   }
 
   bool sealHolds() {
-    const auto seal = checkSeal(text_, where_);
-    if (!seal) {
-      findings_.insert(findings_.end(), seal.findings().begin(), seal.findings().end());
-      return false;
-    }
+    const auto seal = checkSeal(whole_, where_);
+    findings_.add(seal.findings());
+    if (!seal) return false;
     const RawParameter* const checksum = member("checksum");
     if (checksum && json::readString(checksum->value) == *seal) return true;
     refuseMember("checksum", *seal);
@@ -181,7 +182,7 @@ class Reader {
     if (depth_ == 0)
       refuse(at, "base", "a shipped preset's name or a preset file",
              "\"" + preset_.base + "\", which cannot be read");
-    findings_.insert(findings_.end(), base.findings().begin(), base.findings().end());
+    findings_.add(base.findings());
   }
 
   void readParameters(int version, std::vector<RawParameter> raw) {
@@ -192,22 +193,21 @@ class Reader {
     for (const RawParameter& parameter : raw) readParameter(parameter);
     for (const ParameterRow& row : parameterRows())
       if (isExport_ && !places_.contains(std::string(row.key)))
-        findings_.push_back({Severity::warning, where_, std::string(row.key), "every parameter in an export",
-                             "none; " + toText(row, row.get(preset_.parameters)) + " is used"});
+        findings_.add({Severity::warning, where_, std::string(row.key), "every parameter in an export",
+                       "none; " + toText(row, row.get(preset_.parameters)) + " is used"});
     for (Finding& f : rangeFindings(preset_.parameters)) addPlaced(std::move(f));
   }
 
   void readParameter(const RawParameter& parameter) {
-    if (!places_.emplace(parameter.key, parameter.where).second) {
-      findings_.push_back(
-          {Severity::error, parameter.where, parameter.key, "each parameter once", "it a second time"});
-      return;
-    }
+    if (!places_.emplace(parameter.key, parameter.where).second)
+      return refuse(parameter.where, parameter.key, "each parameter once", "it a second time");
     const ParameterRow* const row = findRow(parameter.key);
     if (!row) {
       preset_.unknown.emplace(parameter.key, parameter.value);
-      findings_.push_back({Severity::warning, parameter.where, parameter.key, expectedKey(parameter.key),
-                           "an unknown key, kept without effect"});
+      findings_.add(Severity::warning, [&] {
+        return Finding{Severity::warning, parameter.where, parameter.key, expectedKey(parameter.key),
+                       "an unknown key, kept without effect"};
+      });
       return;
     }
     const Result<ParameterValue> value = json::readValue(*row, parameter.value);
@@ -215,18 +215,18 @@ class Reader {
     for (Finding f : value.findings()) {
       f.where = parameter.where;
       f.key = parameter.key;
-      findings_.push_back(std::move(f));
+      findings_.add(std::move(f));
     }
   }
 
-  std::string_view text_;
+  std::string_view whole_, text_;  ///< with and without a byte order mark
   std::string where_;
   int depth_;
   bool isExport_ = false, isJson_ = true;
   std::map<std::string, RawParameter> top_;
   std::map<std::string, std::string> places_;  ///< parameter -> file and line
   Preset preset_;
-  Findings findings_;
+  FindingList findings_;
 };
 
 Result<Preset> load(const std::string& nameOrFile, const std::filesystem::path& folder, int depth) {
@@ -250,7 +250,7 @@ std::vector<std::string_view> shippedPresets() {
 }
 
 Result<Preset> loadPreset(const std::string& nameOrFile) {
-  return load(nameOrFile, {}, 0);
+  return withinMemory(nameOrFile, [&] { return load(nameOrFile, {}, 0); });
 }
 
 Result<Preset> parsePreset(std::string_view text, const std::string& where) {

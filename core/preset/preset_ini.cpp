@@ -52,7 +52,7 @@ std::string keyOf(std::string_view plain) {
 
 Result<PresetText> readIniExport(std::string_view text, const std::string& where) {
   PresetText file;
-  Findings findings;
+  FindingList findings;
   std::string_view section;
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -60,7 +60,7 @@ Result<PresetText> readIniExport(std::string_view text, const std::string& where
     text.remove_prefix(std::min(end + 1, text.size()));
     const std::string place = where + ":" + std::to_string(number);
     const auto refuse = [&](std::string key, std::string expected) {
-      findings.push_back(
+      findings.add(
           {Severity::error, place, std::move(key), std::move(expected), std::string(line.substr(0, 60))});
     };
     if (line.empty() || line.front() == ';' || line.front() == '#') continue;
@@ -86,10 +86,10 @@ Result<PresetText> readIniExport(std::string_view text, const std::string& where
     }
     for (Finding f : asJson.findings()) {
       f.where = place;
-      findings.push_back(std::move(f));
+      findings.add(std::move(f));
     }
   }
-  if (!findings.empty()) return findings;
+  if (!findings.empty()) return findings.all(where);
   return file;
 }
 

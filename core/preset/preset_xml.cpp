@@ -9,6 +9,7 @@ namespace {
 
 /// PropertyList, and three parts of a key with a numbered element and its leaf.
 constexpr int kDeepest = 8;
+constexpr std::size_t kLongestPrefix = 200;
 constexpr std::string_view kDeclaredEncodings[] = {"", "UTF-8", "utf-8"};
 
 /// A numbered element as a word of the parameter's plain text: "x:y", "low:WIDTHxHEIGHT", or a rule.
@@ -28,7 +29,8 @@ std::string wordOf(const pugi::xml_node& element) {
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& where) : text_(text), where_(where) {}
+  Reader(std::string_view text, const std::string& where)
+      : text_(text), where_(where), places_(where, text) {}
 
   Result<PresetText> read() {
     // An XML reader may expand entities that a document type declares; no export has one.
@@ -48,7 +50,7 @@ class Reader {
     if (std::string_view(root.name()) != "PropertyList")
       return refusal(offsetOf(root), "", "a PropertyList", root.name());
     for (const pugi::xml_node child : root.children()) readProperty(child, child.name(), 1);
-    if (!findings_.empty()) return findings_;
+    if (!findings_.empty()) return findings_.all(where_);
     return std::move(file_);
   }
 
@@ -56,23 +58,26 @@ class Reader {
   static std::size_t offsetOf(const pugi::xml_node& node) {
     return node.offset_debug() < 0 ? 0 : static_cast<std::size_t>(node.offset_debug());
   }
-  Finding refusal(std::size_t at, std::string key, std::string expected, std::string found) const {
-    return {Severity::error, json::place(where_, text_, std::min(at, text_.size())), std::move(key),
-            std::move(expected), std::move(found)};
+  Finding refusal(std::size_t at, std::string key, std::string expected, std::string found) {
+    return {Severity::error, places_.at(at), std::move(key), std::move(expected), std::move(found)};
   }
 
   void readProperty(const pugi::xml_node& node, const std::string& key, int depth) {
     if (node.type() != pugi::node_element) return;
     if (depth > kDeepest) {
-      findings_.push_back(refusal(offsetOf(node), key.substr(0, 60),
-                                  "at most " + std::to_string(kDeepest) + " elements inside each other",
-                                  "more"));
+      findings_.add(refusal(offsetOf(node), key.substr(0, 60),
+                            "at most " + std::to_string(kDeepest) + " elements inside each other", "more"));
       return;
     }
     const pugi::xml_node first =
         node.find_child([](const pugi::xml_node& n) { return n.type() == pugi::node_element; });
     if (!first) return add(node, key, node.child_value());
     if (!first.attribute("n")) {
+      // The key of each element inside begins with it.
+      if (key.size() > kLongestPrefix)
+        return findings_.add(refusal(offsetOf(node), key.substr(0, 60),
+                                     "at most " + std::to_string(kLongestPrefix) + " characters",
+                                     std::to_string(key.size())));
       for (const pugi::xml_node child : node.children())
         readProperty(child, key + "." + child.name(), depth + 1);
       return;
@@ -94,24 +99,24 @@ class Reader {
     const std::string name = keyOf(key.starts_with(kExport) ? key.substr(kExport.size()) : key);
     const Result<std::string> asJson = jsonOf(name, plain);
     if (asJson) {
-      (isMember ? file_.members : file_.parameters)
-          .push_back({name, *asJson, json::place(where_, text_, offsetOf(node))});
+      (isMember ? file_.members : file_.parameters).push_back({name, *asJson, places_.at(offsetOf(node))});
       return;
     }
     for (const Finding& f : asJson.findings())
-      findings_.push_back(refusal(offsetOf(node), f.key, f.expected, f.found));
+      findings_.add(refusal(offsetOf(node), f.key, f.expected, f.found));
   }
 
   std::string_view text_;
   const std::string& where_;
   PresetText file_;
-  Findings findings_;
+  json::Places places_;
+  FindingList findings_;
 };
 
 }  // namespace
 
 bool looksLikeXml(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
   return begin != std::string_view::npos && text[begin] == '<';
 }
 

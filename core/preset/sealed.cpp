@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "trimtab/preset/sha256.h"
+#include "trimtab/units/text.h"
 
 namespace trimtab {
 
@@ -30,6 +31,23 @@ std::string sumWithout(std::string_view text, std::size_t digits) {
   return sum.hex();
 }
 
+/// A text without what editors add when they only save it: no export has either.
+struct Restored {
+  std::string text, undone;
+};
+
+Restored withoutEditorsBytes(std::string_view text) {
+  Restored restored;
+  const std::string_view marked = text;
+  text = withoutByteOrderMark(text);
+  if (text.size() < marked.size()) restored.undone = "a byte order mark";
+  if (text.find("\r\n") != std::string_view::npos)
+    restored.undone += std::string(restored.undone.empty() ? "" : " and ") + "Windows line ends (CR LF)";
+  for (std::size_t at = 0; at < text.size(); ++at)
+    if (text.substr(at, 2) != "\r\n") restored.text += text[at];
+  return restored;
+}
+
 }  // namespace
 
 std::string checksumBlank() {
@@ -47,10 +65,16 @@ Result<std::string> checkSeal(std::string_view text, const std::string& where) {
     return Finding{Severity::error, where, "checksum", "sha256: and 64 digits", "none: the file is damaged"};
   const std::string_view carried = text.substr(*at, kDigits);
   const std::string sum = sumWithout(text, *at);
-  if (sum != carried)
-    return Finding{Severity::error, where, "checksum", std::string(kPrefix) + sum,
-                   std::string(kPrefix) + std::string(carried) + ": the file was changed after its export"};
-  return std::string(kPrefix) + sum;
+  if (sum == carried) return std::string(kPrefix) + sum;
+  const Restored restored = withoutEditorsBytes(text);
+  if (!restored.undone.empty())
+    if (const auto held = checkSeal(restored.text, where))
+      return {*held,
+              {{Severity::warning, where, "checksum", "the bytes of the export",
+                restored.undone + ", which an editor added; without that the checksum holds"}}};
+  return Finding{Severity::error, where, "checksum", std::string(kPrefix) + sum,
+                 std::string(kPrefix) + std::string(carried) + ": the file was changed after its export" +
+                     (restored.undone.empty() ? "" : ", and not only by " + restored.undone)};
 }
 
 }  // namespace trimtab

@@ -50,7 +50,9 @@ const TypedUnit* typedUnit(std::string_view symbol) {
 }
 
 Finding refused(const ParameterRow& row, std::string expected, std::string_view found) {
-  return {Severity::error, "", std::string(row.key), std::move(expected), "\"" + std::string(found) + "\""};
+  constexpr std::size_t kShown = 80;
+  const std::string shown = std::string(found.substr(0, kShown)) + (found.size() > kShown ? "..." : "");
+  return {Severity::error, "", std::string(row.key), std::move(expected), "\"" + shown + "\""};
 }
 
 Result<ParameterValue> parseScalar(const ParameterRow& row, std::string_view text) {

@@ -1,6 +1,9 @@
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
+#include <atomic>
 #include <fstream>
 #include <iostream>
 
@@ -192,6 +195,34 @@ TEST_F(IgLink, watchFollowsALinkToAnotherTerrainAndKeepsTheLastGoodOne) {
     ASSERT_LT(at, std::ssize(names)) << column;
     EXPECT_GT(std::stod(cells[static_cast<std::size_t>(at)]), 0) << column << '\n' << row;
   }
+}
+
+TEST_F(IgLink, watchReadsAChangedPresetWhileItDraws) {
+  IgProcess ig = listen({"--watch", "--frames", "1"});
+  ASSERT_NE(ig.port(), 0) << ig.err();
+  ASSERT_EQ(::mkfifo((dir_ / "pipe").c_str(), 0600), 0);
+  std::filesystem::rename(dir_ / "pipe", dir_ / "preset.json");
+  // Open as soon as the program reads, which goes on for as long as there are bytes, at most five seconds.
+  int held = -1;
+  ASSERT_TRUE(ig.until([&] {
+    return (held = ::open((dir_ / "preset.json").c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)) >= 0;
+  }));
+  ::signal(SIGPIPE, SIG_IGN);
+  std::atomic<bool> ended{false};
+  std::thread writer([&] {
+    while (!ended && ::write(held, " ", 1) == 1) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  });
+  link::PlayOptions how;
+  how.to.port = ig.port();
+  how.loop = true;
+  const auto player = link::FeedPlayer::start(test::weavingFlight(60), how);
+  ASSERT_TRUE(player);
+  EXPECT_EQ(ig.end(), 0) << ig.err();
+  ended = true;
+  writer.join();
+  ::close(held);
+  EXPECT_EQ(ig.summary()["frames"], 1);
+  EXPECT_EQ(ig.summary()["presets_refused"], 0) << "the image was drawn before the file was read";
 }
 
 TEST_F(IgLink, watchSeesAnExportThatChangesWhileTheProgramMakesItselfReady) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -298,6 +299,30 @@ TEST_F(WorkbenchFiles, aFileChangedByAnotherProgramIsSaidAndReloadedOnRequest) {
   edit();
   ASSERT_TRUE(w().controllers().document->saveTo(path(dir / "p.json")));
   EXPECT_FALSE(waitFor(asks, 400));
+}
+
+TEST_F(WorkbenchFiles, aFileChangedOnDiskIsReadWhileTheWindowIsAtWork) {
+  ASSERT_TRUE(w().controllers().document->saveTo(path(dir / "p.json")));
+  ASSERT_EQ(::mkfifo((dir / "pipe").c_str(), 0600), 0);
+  std::filesystem::rename(dir / "pipe", dir / "p.json");
+  // Nobody can open it for writing but while it is read, and this thread, which is the window's, does.
+  int held = -1;
+  ASSERT_TRUE(waitFor([&] { return (held = ::open((dir / "p.json").c_str(), O_WRONLY | O_NONBLOCK)) >= 0; }));
+  EXPECT_EQ(::write(held, "other", 5), 5);
+  ::close(held);
+  EXPECT_TRUE(waitFor([&] { return noticeButton(w(), "Reload") != nullptr; }));
+}
+
+TEST_F(WorkbenchFiles, foldersOfTheKernelAreNoTerrain) {
+  for (const char* const folder : {"/proc", "/sys"}) {
+    const int messages = w().messages().count();
+    drop(folder);
+    ASSERT_TRUE(waitFor([&] {
+      return w().messages().count() > messages && !w().controllers().terrain->job().running();
+    })) << folder;
+    EXPECT_TRUE(
+        w().messages().text().contains(QStringLiteral("%1: expected a folder on a disk").arg(folder)));
+  }
 }
 
 TEST_F(WorkbenchFiles, bakingCanBeCancelledAndTheOldTerrainStays) {

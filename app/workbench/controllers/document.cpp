@@ -13,9 +13,11 @@
 #include <QFileInfo>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QMetaObject>
 #include <QStandardPaths>
 #include <algorithm>
 
+#include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "views/model/draft.h"
 
@@ -77,8 +79,8 @@ std::string nameIn(const QString& file, const std::string& name, const QString& 
 }
 
 std::string readAll(const QString& file) {
-  QFile in(file);
-  return in.open(QIODevice::ReadOnly) ? in.readAll().toStdString() : std::string();
+  const Result<std::string> bytes = readWhole(file.toStdString());
+  return bytes ? *bytes : std::string();
 }
 
 }  // namespace
@@ -173,11 +175,22 @@ void Document::become(const QString& file) {
 
 void Document::checkDisk() {
   if (file_.isEmpty()) return;
-  const bool gone = !QFileInfo::exists(file_);
+  disk_ = std::jthread([this, file = file_, before = std::move(disk_)]() mutable {
+    if (before.joinable()) before.join();
+    const bool gone = !QFileInfo::exists(file);
+    QMetaObject::invokeMethod(
+        this,
+        [this, file, gone, now = gone ? std::string() : readAll(file)] {
+          if (file == file_) compareWithDisk(gone, now);
+        },
+        Qt::QueuedConnection);
+  });
+}
+
+void Document::compareWithDisk(bool gone, std::string now) {
   // A file that was replaced must be watched again.
   if (!gone && !watcher_.files().contains(file_)) watcher_.addPath(file_);
   if (gone) return emit changedOnDisk(true);
-  std::string now = readAll(file_);
   if (now == bytes_) return;
   bytes_ = std::move(now);
   emit changedOnDisk(false);

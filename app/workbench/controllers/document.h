@@ -6,6 +6,7 @@
 #include <QString>
 #include <QTimer>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "trimtab/units/result.h"
@@ -68,13 +69,16 @@ class Document : public QObject {
  private:
   void become(const QString& file);
   void checkDisk();
+  void compareWithDisk(bool gone, std::string now);
 
   views::Draft& draft_;
   QString file_;
   std::string bytes_;  ///< the file's content as it was last read or written
   QFileSystemWatcher watcher_;
   QTimer copySoon_, lookSoon_;
-  int lock_ = -1;  ///< a file lock, held from the first copy on; -1: none
+  int lock_ = -1;      ///< a file lock, held from the first copy on; -1: none
+  std::jthread disk_;  ///< reads the file that changed: no window waits for a disk; the last member, so that
+                       ///< it ends first
 };
 
 }  // namespace trimtab::workbench

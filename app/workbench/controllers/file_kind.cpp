@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "saved_session.h"
+#include "trimtab/preset/file_io.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -15,7 +16,7 @@ constexpr qint64 kLongestHeader = 4096;
 /// The first line that is no comment.
 QString headerOf(const QString& path) {
   QFile file(path);
-  if (!file.open(QIODevice::ReadOnly)) return {};
+  if (!checkIsData(path.toStdString()) || !file.open(QIODevice::ReadOnly)) return {};
   QByteArray line;
   do {
     line = file.readLine(kLongestHeader);

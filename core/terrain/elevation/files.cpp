@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/stop_request.h"
 #include "values.h"
 
 namespace trimtab::terrain {
@@ -19,12 +21,15 @@ Result<std::vector<fs::path>> elevationFiles(std::span<const fs::path> sources) 
       findings.push_back(about(Severity::error, source, "", "a file or folder", "nothing there"));
     } else if (fs::is_directory(status)) {
       std::set<fs::path> inside;
-      for (fs::recursive_directory_iterator it(source, fs::directory_options::skip_permission_denied, error),
-           end;
-           !error && it != end; it.increment(error))
-        if (it->is_regular_file(error)) inside.insert(it->path());
+      const auto visited =
+          visitFiles(source, [&](const fs::path& file) { return inside.insert(file).second; });
+      if (!visited) {
+        findings.insert(findings.end(), visited.findings().begin(), visited.findings().end());
+        continue;
+      }
       const std::size_t before = files.size();
       for (const fs::path& file : inside) {
+        if (stopRequested()) break;
         // Overviews and masks are rasters too, but belong to the file beside them.
         if (file.extension() == ".ovr" || file.extension() == ".msk") continue;
         const GdalErrors quiet;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <mutex>
 
+#include "trimtab/preset/file_io.h"
+
 namespace trimtab::terrain {
 
 struct GdalErrorsAccess {
@@ -57,7 +59,7 @@ void useGdal() {
 bool neverEnds(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
-  return is_fifo(status) || is_socket(status) || is_character_file(status);
+  return is_fifo(status) || is_socket(status) || is_character_file(status) || !checkIsData(file);
 }
 
 }  // namespace trimtab::terrain

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "trimtab/preset/file_io.h"
 #include "trimtab/units/number.h"
 #include "values.h"
 
@@ -257,6 +258,7 @@ std::string whatItIs(const fs::path& file, const GdalErrors& errors) {
 }  // namespace
 
 Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, RasterKind kind) {
+  if (const auto data = checkIsData(file); !data) return data.findings();
   if (neverEnds(file))
     return about(Severity::error, file, "", "a raster that GDAL can read", "a pipe or a device");
   // A DTED profile carries a sum that GDAL leaves unread unless it is asked to.

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/format/store.h"
@@ -264,6 +265,7 @@ Result<Done> writeStaticLod(const fs::path& file, const StaticLodTerrain& terrai
 }
 
 Result<std::shared_ptr<const StaticLodTerrain>> readStaticLod(const fs::path& file) {
+  if (const auto data = checkIsData(file); !data) return data.findings();
   std::error_code error;
   const std::uint64_t size = fs::file_size(file, error);
   if (error) return wrong(file, "", "a readable file", error.message());

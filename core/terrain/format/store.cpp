@@ -24,7 +24,9 @@ bool holdsNothingElse(const std::filesystem::path& folder) {
   constexpr std::string_view kBegins = "{\n  \"format\": \"trimtab-terrain\"";
   std::error_code error;
   // A pipe would never give its first byte.
-  if (!std::filesystem::is_regular_file(folder / kManifestName, error)) return false;
+  if (!std::filesystem::is_regular_file(folder / kManifestName, error) ||
+      !checkIsData(folder / kManifestName))
+    return false;
   std::string begins(kBegins.size(), 0);
   std::ifstream(folder / kManifestName, std::ios::binary)
       .read(begins.data(), static_cast<std::streamsize>(begins.size()));

@@ -72,7 +72,7 @@ SceneryCounts sceneryOf(const Json& json, const Reader& read) {
 /// The trees, if they are those of this manifest's terrain.
 std::shared_ptr<const StaticLodTerrain> readTrees(const fs::path& file, const Json& json,
                                                   const PostGrid& posts, Findings& findings) {
-  const auto trees = readStaticLod(file);
+  const auto trees = withinMemory(file, [&] { return readStaticLod(file); });
   findings.insert(findings.end(), trees.findings().begin(), trees.findings().end());
   if (!trees) return {};
   const Json found = (*trees)->trianglesPerNode;

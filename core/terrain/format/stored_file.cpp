@@ -8,12 +8,15 @@
 #include <cstring>
 #include <string>
 
+#include "trimtab/preset/file_io.h"
+
 namespace trimtab::terrain {
 
 Result<std::shared_ptr<const StoredFile>> StoredFile::open(const std::filesystem::path& file) {
   const auto unreadable = [&](const char* found) {
     return Finding{Severity::error, file.string(), "", "a readable file", found};
   };
+  if (const auto data = checkIsData(file); !data) return data.findings();
   // Without O_NONBLOCK a FIFO would wait for a writer.
   const int handle = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (handle < 0) return unreadable(std::strerror(errno));

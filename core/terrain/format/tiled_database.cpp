@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tiled_database.h"
+#include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/format/store.h"
@@ -263,9 +264,11 @@ bool isDatabase(const std::filesystem::path& folder) {
 }
 
 Result<std::shared_ptr<const Database>> Database::open(const std::filesystem::path& folder) {
-  auto contents = readContents(folder);
-  if (!contents) return contents.findings();
-  return Result<std::shared_ptr<const Database>>(makeDatabase(std::move(contents).value()));
+  return withinMemory(folder, [&]() -> Result<std::shared_ptr<const Database>> {
+    auto contents = readContents(folder);
+    if (!contents) return contents.findings();
+    return Result<std::shared_ptr<const Database>>(makeDatabase(std::move(contents).value()));
+  });
 }
 
 }  // namespace trimtab::terrain

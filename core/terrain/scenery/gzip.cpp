@@ -1,10 +1,8 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
+#include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/scenery/scenery.h"
 
 namespace trimtab::terrain {
@@ -79,16 +77,10 @@ Result<SceneryMesh> readBtg(const fs::path& file, bool withTexture) {
   const auto status = fs::status(file, error);
   if (!fs::is_regular_file(status))
     return wrong(file.string(), "", "a file", fs::exists(status) ? "something else" : "nothing there");
-  const std::uint64_t size = fs::file_size(file, error);
-  if (error || size > kMostBytes)
-    return wrong(file.string(), "size", "at most " + std::to_string(kMostBytes) + " bytes",
-                 error ? error.message() : std::to_string(size));
-  std::string bytes(size, '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!in) return wrong(file.string(), "", "a readable file", std::strerror(errno));
-  if (!isGzip(bytes)) return parseBtg(bytes, file.string(), withTexture);
-  const auto unzipped = gunzip(bytes, file.string());
+  const auto bytes = readWhole(file, kMostBytes);
+  if (!bytes) return bytes.findings();
+  if (!isGzip(*bytes)) return parseBtg(*bytes, file.string(), withTexture);
+  const auto unzipped = gunzip(*bytes, file.string());
   if (!unzipped) return unzipped.findings();
   return parseBtg(*unzipped, file.string(), withTexture);
 }

@@ -1,12 +1,12 @@
 #include "trimtab/terrain/scenery/scenery.h"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <set>
 #include <sstream>
 
+#include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/grid/parallel.h"
 
 namespace trimtab::terrain {
@@ -47,11 +47,12 @@ fs::path onDisk(const fs::path& named) {
 void readList(const fs::path& list, Inventory& found) {
   constexpr std::size_t kMostLine = 4096;
   found.lists.insert(list);
-  std::ifstream in(list, std::ios::binary);
-  if (!in) {
-    found.findings.push_back(about(Severity::error, list.string(), "", "a readable list", "none"));
+  const Result<std::string> text = readWhole(list);
+  if (!text) {
+    found.findings.insert(found.findings.end(), text.findings().begin(), text.findings().end());
     return;
   }
+  std::istringstream in(*text);
   std::size_t number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
@@ -99,11 +100,11 @@ Result<Inventory> inventory(const fs::path& path) {
       found.tiles.emplace(path, isAirportName(path));
   } else {
     std::map<fs::path, std::vector<fs::path>> folders;
-    for (fs::recursive_directory_iterator it(path, fs::directory_options::skip_permission_denied, error), end;
-         !error && it != end; it.increment(error)) {
-      if (!it->is_regular_file(error)) continue;
-      if (isTile(it->path()) || isList(it->path())) folders[it->path().parent_path()].push_back(it->path());
-    }
+    const auto visited = visitFiles(path, [&](const fs::path& file) {
+      if (isTile(file) || isList(file)) folders[file.parent_path()].push_back(file);
+      return true;
+    });
+    if (!visited) return visited.findings();
     for (auto& [folder, files] : folders) {
       std::sort(files.begin(), files.end());
       const bool lists = std::any_of(files.begin(), files.end(), isList);
@@ -129,10 +130,10 @@ bool isScenery(const fs::path& path) {
   std::error_code error;
   if (isTile(path) || isList(path)) return fs::is_regular_file(path, error);
   if (!fs::is_directory(path, error)) return false;
-  for (fs::recursive_directory_iterator it(path, fs::directory_options::skip_permission_denied, error), end;
-       !error && it != end; it.increment(error))
-    if ((isTile(it->path()) || isList(it->path())) && it->is_regular_file(error)) return true;
-  return false;
+  bool found = false;
+  const auto visited =
+      visitFiles(path, [&](const fs::path& file) { return !(found = isTile(file) || isList(file)); });
+  return visited && found;
 }
 
 Result<std::vector<fs::path>> sceneryFiles(const fs::path& path) {

@@ -1,12 +1,8 @@
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <functional>
 #include <thread>
 
-#include "tests/support.h"
+#include "tests/child.h"
 #include "trimtab/host/decoder.h"
 #include "trimtab/host/encoder.h"
 #include "trimtab/host/flight.h"
@@ -23,35 +19,6 @@ std::string cli() {
 std::string freePort() {
   return std::to_string(UdpSocket().port());
 }
-
-/// A program in the background, its standard error in a file.
-class Background {
- public:
-  Background(std::vector<std::string> arguments, const std::filesystem::path& err) : pid_(::fork()) {
-    if (pid_ != 0) return;
-    if (!std::freopen(err.c_str(), "w", stderr)) ::_exit(126);
-    std::vector<char*> argv;
-    for (std::string& a : arguments) argv.push_back(a.data());
-    argv.push_back(nullptr);
-    ::execv(argv[0], argv.data());
-    ::_exit(127);
-  }
-  ~Background() {
-    if (pid_ > 0) end(SIGKILL);
-  }
-  Background(const Background&) = delete;
-  Background& operator=(const Background&) = delete;
-  int end(int signal = 0) {
-    if (signal != 0) ::kill(pid_, signal);
-    int status = 0;
-    ::waitpid(pid_, &status, 0);
-    pid_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-
- private:
-  pid_t pid_;
-};
 
 void waitFor(const std::filesystem::path& file, const std::string& text) {
   for (int i = 0; i < 1000 && readFile(file).find(text) == std::string::npos; ++i)

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "trimtab/policy/policy_file.h"
+#include "trimtab/units/finding_list.h"
 
 namespace trimtab {
 namespace {
@@ -237,6 +238,28 @@ TEST(BadPolicyFile, isNeverSlowHoweverLargeItIs) {
     EXPECT_FALSE(many);
     EXPECT_NE(toString(many.findings()).find("expected at most 2048 rules, found more"), std::string::npos);
   }
+}
+
+TEST(BadPolicyFile, hasAsManyVariablesAsEachRuleCanBeComparedWith) {
+  for (const BadLanguage& language : kBadLanguages) {
+    std::string text = language.good;
+    for (int i = 2; i < 3000; ++i)
+      text += language.format == RuleFormat::fuzzylite ? "OutputVariable: v" + std::to_string(i) + "\n"
+                                                       : "\n[Output" + std::to_string(i) + "]\n";
+    const auto read = readPolicyFile(text, language.ending, language.format);
+    ASSERT_FALSE(read);
+    EXPECT_NE(toString(read.findings()[0]).find("expected at most 256 of a kind, found more"),
+              std::string::npos)
+        << toString(read.findings());
+    EXPECT_EQ(read.findings().size(), FindingList::kMost + 1);
+    EXPECT_NE(read.findings().back().found.find("2,7"), std::string::npos)
+        << toString(read.findings().back());
+  }
+}
+
+TEST(BadPolicyFile, mayBeginWithAByteOrderMark) {
+  for (const BadLanguage& language : kBadLanguages)
+    EXPECT_TRUE(readPolicyFile("\xef\xbb\xbf" + language.good, language.ending, language.format));
 }
 
 TEST(BadPolicyFile, isRefusedOrReadWhateverByteIsWrong) {

@@ -3,6 +3,7 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/child.h"
 #include "tests/core/terrain/scenery/scenery_tiles.h"
 
 namespace trimtab {
@@ -257,10 +258,27 @@ TEST_F(TerrainCommand, saysWhenAFileMayNotBeSoLarge) {
 }
 
 TEST_F(TerrainCommand, stopsCleanlyWhenInterrupted) {
-  const auto stopped = test::run("exec timeout -s INT --preserve-status 0.3 " +
-                                 cli("sample -o " + at("s.tif") + " --post-m 30"));
-  EXPECT_EQ(stopped.exitCode, 1) << stopped.err;
-  EXPECT_NE(stopped.err.find("cancelled"), std::string::npos);
+  const test::ScratchDir log;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    test::Background sample(
+        {test::program("trimtab-cli").string(), "terrain", "sample", "-o", at("s.tif"), "--post-m", "20"},
+        log / "err");
+    ASSERT_TRUE(sample.says(" % "));
+    EXPECT_EQ(sample.end(signal), 1) << test::readFile(log / "err");
+    EXPECT_NE(test::readFile(log / "err").find("cancelled"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::is_empty(dir_.path()));
+  }
+}
+
+TEST_F(TerrainCommand, stopsCleanlyFromItsFirstMomentOn) {
+  const test::ScratchDir log;
+  test::Background sample(
+      {test::program("trimtab-cli").string(), "terrain", "sample", "-o", at("s.tif"), "--post-m", "20"},
+      log / "err");
+  // A signal before the program begins ends any program.
+  ASSERT_TRUE(test::until([&] { return test::catches(sample.pid(), SIGTERM); }));
+  EXPECT_EQ(sample.end(SIGTERM), 1) << test::readFile(log / "err");
+  EXPECT_NE(test::readFile(log / "err").find("cancelled"), std::string::npos);
   EXPECT_TRUE(std::filesystem::is_empty(dir_.path()));
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -9,9 +11,14 @@
 
 namespace trimtab {
 
-/// Returns every byte of a file, or of a pipe or device that ends: at most `mostBytes`, and at most 64 MiB of
-/// what is no file. Fails for a folder, and for a pipe that is open after a second without a byte or after
-/// five seconds.
+/// Refuses what no data comes from: devices but /dev/null and the terminal at standard input, and what the
+/// kernel shows under /proc and /sys, by whatever name it is reached. Pipes pass, as does what is not there.
+Result<Done> checkIsData(const std::filesystem::path& fileOrFolder);
+
+/// Returns every byte of a file, or of a pipe or a terminal that ends: at most `mostBytes`, and at most 64
+/// MiB of what is no file. Fails for a folder, for what checkIsData() refuses, if memory runs out, and for a
+/// pipe that is open after a second without a byte, after five seconds, or when the program is asked to stop
+/// (stop_request.h).
 Result<std::string> readWhole(const std::filesystem::path& file,
                               std::size_t mostBytes = std::size_t{16} << 20);
 /// What a flight, a trace, a head log or a capture may have: they are read whole.
@@ -19,6 +26,24 @@ inline constexpr std::size_t kLargestRecording = std::size_t{4} << 30;
 
 /// Sees that a file may take this name: nothing has it, or a file that may be written.
 Result<Done> canReplace(const std::filesystem::path& file);
+/// Calls `visit` for each regular file in a folder and below it, in no order, until it returns false. Leaves
+/// out links to folders, folders that may not be entered, and what checkIsData() refuses; fails if that is
+/// the folder itself, or if the program is asked to stop.
+Result<Done> visitFiles(const std::filesystem::path& folder,
+                        const std::function<bool(const std::filesystem::path&)>& visit);
+
+/// Says that memory ran out while a file was read.
+Finding tooLargeForMemory(const std::filesystem::path& file);
+/// Calls a function that reads a file. If memory runs out in it, returns a finding that names the file.
+template <class Read>
+auto withinMemory(const std::filesystem::path& file, const Read& read) -> decltype(read()) {
+  try {
+    return read();
+  } catch (const std::bad_alloc&) {
+    return tooLargeForMemory(file);
+  }
+}
+
 /// Sees that files can be made in a folder, before long work whose result goes there.
 Result<Done> canWriteIn(const std::filesystem::path& folder);
 /// The same for the folder that a file is to be made in.

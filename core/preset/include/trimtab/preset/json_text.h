@@ -37,7 +37,20 @@ std::string valueText(const ParameterRow& row, const ParameterValue& value);
 /// Is the inverse, from text that passed checkSyntax. Its finding has neither place nor key.
 Result<ParameterValue> readValue(const ParameterRow& row, std::string_view value);
 
-/// Returns "file:12" for an offset in line 12.
+/// Returns "file:12" for an offset in line 12. Reads the text up to there.
 std::string place(const std::string& where, std::string_view whole, std::size_t offset);
+
+/// Returns the same for many offsets, and reads the text once if they rise.
+class Places {
+ public:
+  /// Both must outlive it.
+  Places(const std::string& where, std::string_view whole) : where_(where), whole_(whole) {}
+  std::string at(std::size_t offset);
+
+ private:
+  const std::string& where_;
+  std::string_view whole_;
+  std::size_t read_ = 0, line_ = 1;
+};
 
 }  // namespace trimtab::json

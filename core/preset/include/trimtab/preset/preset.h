@@ -40,10 +40,11 @@ std::string machineNote(const TuningParameters& parameters);
 std::vector<std::string_view> shippedPresets();
 
 /// Reads a preset (JSON) or an export (JSON, PropertyList XML or INI), told apart by content, or a shipped
-/// preset by its name. Findings name file, line, key, expected and found. An export whose checksum does not
-/// hold is refused, as is one with a document type, deep nesting or an encoding other than UTF-8. A broken
-/// rule between parameters is an error among the findings, but the preset is returned, so that it can be
-/// edited: validate() is what decides whether it runs.
+/// preset by its name. Findings name file, line, key, expected and found; of each severity there are the
+/// first ones and the number of the others. An export whose checksum does not hold is refused (checkSeal()
+/// says what editors may add), as is one with a document type, deep nesting or an encoding other than UTF-8.
+/// A broken rule between parameters is an error among the findings, but the preset is returned, so that it
+/// can be edited: validate() is what decides whether it runs.
 Result<Preset> loadPreset(const std::string& nameOrFile);
 Result<Preset> parsePreset(std::string_view text, const std::string& where);
 

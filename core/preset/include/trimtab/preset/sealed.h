@@ -13,8 +13,9 @@ namespace trimtab {
 std::string checksumBlank();
 /// Returns the text with its last checksum replaced by the right one.
 std::string sealed(std::string text);
-/// Returns the checksum of a text, "sha256:...", if it is right; otherwise findings with the expected and the
-/// found one.
+/// Returns the checksum that a text carries, "sha256:...", if it is right; otherwise findings with the
+/// expected and the found one. If it is right but for a byte order mark or Windows line ends, as editors add
+/// them, it is returned with a warning that names them.
 Result<std::string> checkSeal(std::string_view text, const std::string& where);
 
 }  // namespace trimtab

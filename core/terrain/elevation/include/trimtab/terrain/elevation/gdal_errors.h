@@ -35,7 +35,8 @@ class GdalErrors {
 /// Registers GDAL's drivers, once per process, and limits its block cache.
 void useGdal();
 
-/// Tells whether a name is that of a pipe, a socket or a device, for which GDAL would wait for ever.
+/// Tells whether a name is that of a pipe, a socket, a device or a file of the kernel, for which GDAL may
+/// wait for ever.
 bool neverEnds(const std::filesystem::path& file);
 
 }  // namespace trimtab::terrain
