@@ -66,20 +66,27 @@ QString pictureText(const Latency& latency) {
 
 /// Says in one line why what came led to no state; empty if nothing came, or if all of it did.
 QString unusedText(const HostStatistics& host, const link::Senders& senders) {
+  const auto newest = [](const std::optional<Finding>& finding) {
+    return QString::fromStdString(toString(finding.value_or(Finding{})));
+  };
   if (host.bad > 0)
-    return HostDock::tr("%L1 of %L2 datagrams refused: %3")
+    return HostDock::tr("%L1 of %L2 datagrams refused; the newest from %3")
         .arg(host.bad)
         .arg(host.received)
-        .arg(QString::fromStdString(host.firstBadReason));
+        .arg(newest(host.newestBad));
+  if (host.notForUs > 0)
+    return HostDock::tr("%L1 of %L2 datagrams are for someone else; the newest from %3")
+        .arg(host.notForUs)
+        .arg(host.received)
+        .arg(newest(host.newestNotForUs));
+  if (host.newestUnused && host.states == 0)
+    return HostDock::tr("%L1 datagrams and no state; the newest from %2")
+        .arg(host.received)
+        .arg(newest(host.newestUnused));
   if (host.received == 0 && senders.refused > 0)
     return HostDock::tr("%L1 datagrams thrown away, the last from %2: allowed is %3")
         .arg(senders.refused)
         .arg(QString::fromStdString(senders.lastRefused), QString::fromStdString(senders.allowed));
-  if (host.notReady > 0 && host.states == 0)
-    return HostDock::tr("%L1 states below -1,000 ft: the simulator has not placed its aircraft yet")
-        .arg(host.notReady);
-  if (host.received > 0 && host.states == 0)
-    return HostDock::tr("%L1 datagrams understood, none of the ownship (entity 0)").arg(host.received);
   return {};
 }
 
