@@ -220,7 +220,7 @@ Results noisyResults(const std::vector<Noisy>& presets, double budgetMs, test::N
   std::normal_distribution<double> normal(0, 1);
   std::vector<Unit> units;
   for (const Noisy& preset : presets)
-    units.push_back({{"circuit", preset.preset, "proposed"}, {}, {}, {}, 0});
+    units.push_back({{"circuit", preset.preset, "proposed"}, {}, {}, {}, 0, {}});
   for (std::size_t i = 0; i < kFrames; ++i) {
     const double ms = 9 + 3 * std::sin(0.2 * double(i)), flip = 0.01 + 0.004 * std::sin(0.07 * double(i));
     for (std::size_t u = 0; u < units.size(); ++u) {
