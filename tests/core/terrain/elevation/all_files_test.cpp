@@ -65,7 +65,9 @@ TEST(AllFiles, openOrAreRefusedForAReasonThatAPersonUnderstands) {
   for (const char* folder : {"data", "captures"})
     if (fs::exists(test::sharedDir() / folder))
       for (const auto& entry : fs::recursive_directory_iterator(test::sharedDir() / folder))
-        if (entry.is_regular_file()) files.push_back(entry.path());
+        // The files of a CDB say what they are by where they lie in it; alone they are no source.
+        if (entry.is_regular_file() && entry.path().string().find("/data/cdb-") == std::string::npos)
+          files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   ASSERT_FALSE(files.empty());
   std::vector<std::size_t> met(std::size(kKinds), 0);
