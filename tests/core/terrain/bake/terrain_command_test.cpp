@@ -260,12 +260,14 @@ TEST_F(TerrainCommand, saysWhenAFileMayNotBeSoLarge) {
 TEST_F(TerrainCommand, stopsCleanlyWhenInterrupted) {
   const test::ScratchDir log;
   for (const int signal : {SIGINT, SIGTERM}) {
+    // One for each, since the first one says what the second is waited for.
+    const std::filesystem::path err = log / std::to_string(signal);
     test::Background sample(
         {test::program("trimtab-cli").string(), "terrain", "sample", "-o", at("s.tif"), "--post-m", "20"},
-        log / "err");
+        err);
     ASSERT_TRUE(sample.says(" % "));
-    EXPECT_EQ(sample.end(signal), 1) << test::readFile(log / "err");
-    EXPECT_NE(test::readFile(log / "err").find("cancelled"), std::string::npos);
+    EXPECT_EQ(sample.end(signal), 1) << test::readFile(err);
+    EXPECT_NE(test::readFile(err).find("cancelled"), std::string::npos);
     EXPECT_TRUE(std::filesystem::is_empty(dir_.path()));
   }
 }
