@@ -66,6 +66,9 @@ Result<PartFile> PartFile::open(const std::filesystem::path& target, std::string
   state->part += ".part";
   state->file = Descriptor(::open(state->part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   const bool isNew = state->file.isOpen();
+  if (!isNew && errno == ENOENT)
+    return Finding{Severity::error, target.string(), "", "a folder that exists",
+                   std::filesystem::absolute(target).parent_path().string()};
   if (!isNew && errno != EEXIST) return refused(state->part, kWritable, errno);
   if (isNew) static_cast<void>(state->lock());
   if (auto there = isNew ? Result<Done>(Done{}) : state->goOn(header); !there) return there.findings();

@@ -68,9 +68,11 @@ class Pause : public Bench {
   /// Whether the view stands still, and says why, for as long as `running` holds.
   void expectPaused(const std::function<bool()>& running, const QString& why) {
     ASSERT_TRUE(w().viewport().paused());
-    const std::uint64_t before = paints();
     const std::size_t images = w().strip().minute().images();
     EXPECT_TRUE(waitFor([&] { return banner().contains(why); })) << banner().toStdString();
+    // The banner itself is painted over the last image.
+    waitFor([] { return false; }, 200);
+    const std::uint64_t before = paints();
     if (const QString shots = qEnvironmentVariable("TRIMTAB_SHOTS"); !shots.isEmpty())
       onDisplay(w()).save(shots + "/paused.png");
     EXPECT_FALSE(waitFor([&] { return !running(); }, 300));

@@ -163,7 +163,7 @@ TEST(Run, sampledFramesAgreeWithThoseOfAFlightThatIsDrawnWhole) {
   ASSERT_EQ(some.frames.size(), all.frames.size());
   for (const char* key : {"triangles", "flip"}) {
     EXPECT_FALSE(differ(some, all, key)) << key;
-    EXPECT_TRUE(differ(some, plain, key)) << key << ": the rules do something";
+    EXPECT_NE(meanOf(some, key), meanOf(plain, key)) << "the rules do something";
   }
 }
 
