@@ -61,7 +61,7 @@ UnitDifference differenceOf(const Unit& a, const Unit& b, double confidence = kC
 
 /// Answers for the units of a flight.
 ///
-/// Of those that fit (if none surely does, of those that may), the first is the one with the smallest FLIP,
+/// The first of those that fit (if none surely does, of those that may) is the one with the smallest FLIP,
 /// or one that is better still because it surely takes less time at a FLIP that does not differ. The best are
 /// it and all others that do not differ from it in FLIP and in frame time, whatever the budget cuts between
 /// them. However many units there are, in at most 5 of 100 runs noise alone sets apart any two of them.

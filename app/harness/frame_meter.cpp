@@ -13,7 +13,7 @@ namespace {
 using experiment::quantileOf;
 using experiment::Stage;
 
-/// Draws a frame whose parts are told apart by waiting: they cost time, so these are not the timed ones.
+/// So many draws wait after each part of a frame. Waiting costs time, so these are not the timed draws.
 constexpr std::size_t kPartDraws = 3;
 
 std::vector<double> ofStage(const std::vector<FrameCost>& costs, CostField stage) {

@@ -142,9 +142,10 @@ std::size_t Run::imagesOf(std::size_t flight, const std::vector<Runner>& runners
 /// Flies all presets, unless they have flown already; false if it was cancelled.
 bool Run::fly(std::size_t flight, std::vector<Runner>& runners) {
   const auto& named = plan_.flights[flight];
-  stage_.setTerrain(plan_.terrain);
   for (Runner& runner : runners) {
     if (!runner.frames.empty()) continue;
+    // Nobody flies over pages that another one has read.
+    stage_.setTerrain(plan_.terrain);
     doing_ = "flying " + named.name + ", " + runner.name.preset + ", " + runner.name.method;
     if (!goOn()) return false;
     Flying how = flying();

@@ -53,7 +53,7 @@ bool isMadeByKernel(const fs::path& path) {
   return !failed && (top == "proc" || top == "sys");
 }
 
-/// What is no file may never end: neither its bytes nor the wait for them may be endless.
+/// A pipe or a terminal may never end: neither its bytes nor the wait for them may be endless.
 class Stream {
  public:
   explicit Stream(int fd) : polled_{fd, POLLIN, 0} {}

@@ -5,7 +5,7 @@
 #include "host_support.h"
 #include "tests/support.h"
 
-/// What is undamaged, but not for an image generator that follows a host.
+/// Datagrams that are undamaged, but not for an image generator that follows a host.
 namespace trimtab::test {
 namespace {
 

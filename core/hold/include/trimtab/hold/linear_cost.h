@@ -11,10 +11,10 @@ namespace trimtab {
 /// What can be measured, and so what can be learned. Times are milliseconds.
 namespace cost_bounds {
 inline constexpr double kShortestMs = 1e-6, kLongestMs = 60e3;
-/// Of a quantity that is not 0: a pixel in millions of them, and ten thousand million triangles by the side
-/// of a scene, in ten thousands and thousands of pixels.
+/// The range of a quantity that is not 0: a pixel in millions of them, and ten thousand million triangles by
+/// the side of a scene, in ten thousands and thousands of pixels.
 inline constexpr double kLeastQuantity = 1e-6, kMostQuantity = 1e8;
-/// Of what one unit of a quantity costs.
+/// The range of what one unit of a quantity costs.
 inline constexpr double kLeastScale = kShortestMs / kMostQuantity / 10,
                         kMostCost = kLongestMs / kLeastQuantity;
 inline constexpr double kMostImages = 1e12;
