@@ -147,6 +147,22 @@ Json policyJson(const TraceRow& row, const CompiledPolicy* policy) {
           {"rules", std::move(rules)}};
 }
 
+/// Every lever after each step of the chain, and which step changed it last.
+Json chainJson(const LeverChain& chain) {
+  Json levers = Json::object();
+  for (const FrameLeverRow& row : kFrameLeverRows) {
+    Json lever = Json::object();
+    for (std::size_t i = 0; i < kLeverSteps; ++i) {
+      const auto step = static_cast<LeverStep>(i);
+      const double value = valueOf(chain.after(step), row);
+      lever[std::string(toText(step))] = std::isfinite(value) ? Json(value) : Json(nullptr);
+    }
+    lever["changed_by"] = toText(lastChange(chain, row));
+    levers[std::string(row.key)] = std::move(lever);
+  }
+  return levers;
+}
+
 /// The policy's rules as text; none if it is switched off.
 std::vector<std::string> ruleTexts(const ValidatedParameters& parameters) {
   std::vector<std::string> texts;
@@ -158,6 +174,7 @@ std::vector<std::string> ruleTexts(const ValidatedParameters& parameters) {
 
 Json toJson(const TraceRow& row, const ValidatedParameters& parameters) {
   const FrameDecision& d = row.decision;
+  const LeverChain levers = leversOf(d, *parameters);
   Json firing = Json::array();
   for (std::size_t i = 0; i < d.ruleFiring.count; ++i)
     firing.push_back(
@@ -173,7 +190,8 @@ Json toJson(const TraceRow& row, const ValidatedParameters& parameters) {
           {"depth_map_px", d.occlusionResolution
                                ? Json{d.occlusionResolution->widthPx, d.occlusionResolution->heightPx}
                                : Json(nullptr)},
-          {"lod_scale", d.lodScale},
+          {"lod_scale", levers.policy.lodScale},
+          {"levers", chainJson(levers)},
           {"reason", toText(d.reason)},
           {"policy", policyJson(row, parameters.policy())},
           {"explanation", explain(d, parameters)}};

@@ -110,6 +110,7 @@ Result<Report> runCullingPerNode(const Setup& setup) {
               // the height above it.
               request.testedWithinM = Feet{testedWithinFt(decided)}.as<Metres>().value();
               request.decision = decided(altitude);
+              request.levers = leversOf(request.decision, **parameters);
             }
             FrameResult last;
             NodeSums& s = sums[loop];

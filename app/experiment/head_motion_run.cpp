@@ -47,7 +47,7 @@ bool pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameter
     if (!first) continue;
     run.vertices.push_back(double(result.visible.vertices));
     run.lodScale.push_back(request->decision.motion.lodScale);
-    run.blur.push_back(request->decision.motion.blur.strength);
+    run.blur.push_back(request->levers.drawn.blurStrength);
     if (kept(i)) run.pictures.push_back(stage.shown());
   }
   run.model = session.hold().model();

@@ -57,9 +57,7 @@ void moveHead(const HeadLog& head, AircraftState& state, double time) {
 }
 
 void fix(FrameRequest& request, const HeldLevers& levers) {
-  setAllowedError(request, levers.errorPx);
-  request.renderScale = levers.renderScale;
-  request.particleShare = levers.particleShare;
+  request.levers.drawn = withBudget(request.levers.policy, levers);
 }
 
 }  // namespace
@@ -144,7 +142,7 @@ void measureLosses(scene::ErrorMeter& meter, const Setup& setup, const Validated
       fix(lowered, levers);
       return meter.measure(lowered, {}, nullptr).flip - whole;
     };
-    const HeldLevers full{request.lod.screenSpaceError.value(), 1, 1, 1};
+    const HeldLevers full{request.levers.policy.errorPx, 1, 1, 1};
     error.push_back(lost({16, 1, 1, 1}));
     scale.push_back(lost({full.errorPx, 0.5, 1, 1}));
     if (request.decision.weather.density > 0) particles.push_back(lost({full.errorPx, 1, 0, 1}));
@@ -203,9 +201,10 @@ void HoldPilot::drawNext() {
   const FrameCost cost = session_.finished(result, state.time);
   session_.builtAhead(stage_.buildAhead(session_.nodesAhead(request), session_.aheadMs()).left);
   run_.ms.push_back(workMs(cost));
-  run_.errorPx.push_back(request.lod.screenSpaceError.value() * request.decision.lodScale);
-  run_.renderScale.push_back(request.renderScale);
-  run_.particles.push_back(request.particleShare);
+  const FrameLevers& drawn = request.levers.drawn;
+  run_.errorPx.push_back(drawn.errorPx * drawn.lodScale);
+  run_.renderScale.push_back(drawn.renderScale);
+  run_.particles.push_back(drawn.particleShare);
   run_.limitMs.push_back(request.hold.limitMs);
   const bool strains = i >= strain_.from && i < strain_.to;
   if (const auto& outcome = session_.hold().outcome(); strains && outcome && flight_.parameters->hold.enabled)

@@ -10,7 +10,7 @@
 #include "trimtab/measure/paired_ratio.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/error_meter.h"
-#include "trimtab/session/lever_request.h"
+#include "trimtab/decision/decide.h"
 #include "trimtab/session/session.h"
 #include "trimtab/units/not_finite.h"
 
@@ -122,7 +122,7 @@ class Run {
       return make(own, false);
     }
     if (lever == Lever::far_distance &&
-        !any(plain.moments, [](const auto& r) { return std::isfinite(r.decision.weather.farM); })) {
+        !any(plain.moments, [](const auto& r) { return std::isfinite(r.levers.weather.farM); })) {
       own.name = "fog, visibility 10 km";
       weather.source = WeatherSource::preset;
       weather.visibilityFrom = VisibilitySource::typed;
@@ -225,22 +225,12 @@ class Run {
 }  // namespace
 
 FrameRequest withLever(FrameRequest request, Lever lever, double value, const TuningParameters& parameters) {
-  PolicyOutcome outcome;
-  outcome.moved = 1u << indexOf(lever);
-  outcome.value[indexOf(lever)] = value;
   FrameDecision& decision = request.decision;
-  if (lever == Lever::lod_scale) decision.lodScale = value * decision.motion.lodScale;
-  if (lever == Lever::occlusion) {
-    const BandList& bands = parameters.scheme.bands;
-    decision.band = bandOf(bands, value);
-    decision.scheme = decision.band < 0 ? Scheme::frustum : Scheme::dynamic;
-    decision.occlusionResolution.reset();
-    if (decision.band >= 0) {
-      const Band& band = bands.band[static_cast<std::size_t>(decision.band)];
-      decision.occlusionResolution = OcclusionResolution{band.widthPx, band.heightPx};
-    }
-  }
-  applyLevers(outcome, request);
+  decision.policy.moved |= 1u << indexOf(lever);
+  decision.policy.value[indexOf(lever)] = value;
+  const BandList& bands = parameters.scheme.bands;
+  if (lever == Lever::occlusion) setBand(decision, bands, bandOf(bands, value));
+  request.levers = leversOf(decision, parameters);
   return request;
 }
 

@@ -50,8 +50,7 @@ struct Leverage {
   double othersShare = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Returns the request with one lever set to a value and no policy, as a decision of a policy with that
-/// target would set it.
+/// Returns the request with one lever set to a value, as a rule with that target would leave it.
 FrameRequest withLever(FrameRequest request, Lever lever, double value, const TuningParameters& parameters);
 
 /// A moment of a flight as a session asks for it, with the requests of the images before it, 1/60 s apart:

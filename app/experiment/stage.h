@@ -70,7 +70,7 @@ std::vector<Place> placesOf(const Setup& setup, std::size_t count);
 /// Images that a blur can reach back over at 60 images a second.
 inline constexpr std::size_t kLongestTrace = 64;
 inline bool blurs(const FrameRequest& request) {
-  return request.decision.motion.blur.strength > 0;
+  return request.levers.drawn.blurStrength > 0;
 }
 
 /// Returns how many pixels of two images differ in any channel.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trimtab/decision/decide.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/load_index.h"
 #include "trimtab/session/session.h"
@@ -51,18 +52,23 @@ Result<std::unique_ptr<WeatherView>> WeatherView::open(const Setup& setup) {
   session.setGround(setup.terrain);
   session.look(state);
   view->request_ = *session.request(0, setup.widthPx, setup.heightPx);
-  view->request_.decision.weather = {};
+  view->setWeather({});
   view->hold_.setIndex(scene::loadIndexOf(setup.terrain));
   return view;
 }
 
 void WeatherView::setError(double px) {
-  request_.lod.screenSpaceError = Pixels{px};
-  request_.staticLod.errorPx = Pixels{px};
+  preset_.lod.screenSpaceError = preset_.staticLod.errorPx = Pixels{px};
+  setWeather(request_.decision.weather);
+}
+
+void WeatherView::setWeather(const WeatherDecision& weather) {
+  request_.decision.weather = weather;
+  request_.levers = leversOf(request_.decision, preset_);
 }
 
 double WeatherView::vertices() {
-  request_.decision.weather = {};
+  setWeather({});
   return double(stage_->draw(request_).visible.vertices);
 }
 
@@ -80,7 +86,7 @@ double WeatherView::reach(double vertices, double& reached) {
 }
 
 std::vector<double> WeatherView::drawn(const WeatherDecision& weather, int frames) {
-  request_.decision.weather = weather;
+  setWeather(weather);
   std::vector<double> ms;
   for (int i = 0; i < kUncounted + frames; ++i) {
     request_.time += kFrameS;
@@ -118,9 +124,9 @@ WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overC
     const double budgetMs = part * overClear * quantileOf({last, clearMs.end()}, 0.5);
     for (int i = 0; i < kUncounted + kTurn; ++i) {
       request_.time += kFrameS;
+      setWeather(falling);
       FrameRequest request = request_;
-      request.decision.weather = falling;
-      const HoldGiven given = hold_.look(request, {}, budgetMs, request.lod.screenSpaceError.value());
+      const HoldGiven given = hold_.look(request, {}, budgetMs, request.levers.policy.errorPx);
       held.levers = hold_.decide(given, parameters, request).held;
       const FrameResult result = heldStage_->draw(request);
       hold_.finished(result, result.cost);
@@ -143,7 +149,7 @@ WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overC
 }
 
 scene::CutError WeatherView::cutError(const WeatherDecision& weather) {
-  request_.decision.weather = weather;
+  setWeather(weather);
   return stage_->cutError(request_);
 }
 

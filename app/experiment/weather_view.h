@@ -74,6 +74,7 @@ class WeatherView {
 
  private:
   WeatherView() = default;
+  void setWeather(const WeatherDecision& weather);
   /// Draws so many frames with this weather, and some before that do not count; returns their work times.
   std::vector<double> drawn(const WeatherDecision& weather, int frames);
 

@@ -69,7 +69,7 @@ const std::vector<Skip>& skips() {
        without<&Skips::beyondVisibility>, itself},
       {"occlusion test in scheme frustum",
        [](const FrameRequest& r, const FrameResult&, const FrameResult& after) {
-         return r.method == CullingCase::proposed && !r.decision.occlusionResolution &&
+         return r.method == CullingCase::proposed && !r.levers.drawn.occlusion &&
                 !after.visible.tiles.empty();
        },
        without<&Skips::schemeFrustum>, itself},

@@ -199,12 +199,10 @@ void warmUp(const Run& run, const terrain::Database& database) {
   session.look(state);
   FrameRequest request = *session.request(0, run.options.width, run.options.height);
   run.surface.fit(request.view.widthPx, request.view.heightPx);
-  request.decision.scheme = Scheme::frustum;
-  request.decision.occlusionResolution.reset();
+  request.levers.drawn.occlusion.reset();
   run.renderer.draw(request, run.surface.framebuffer());
-  request.decision.scheme = Scheme::dynamic;
   for (const Band& band : run.session.parameters()->scheme.bands.span()) {
-    request.decision.occlusionResolution = OcclusionResolution{band.widthPx, band.heightPx};
+    request.levers.drawn.occlusion = OcclusionResolution{band.widthPx, band.heightPx};
     run.renderer.draw(request, run.surface.framebuffer());
   }
   run.surface.present();

@@ -45,6 +45,14 @@ double staticLodDistancePerError(const StaticLodParameters& parameters, double l
   return perError / lodScale;
 }
 
+StaticLodRule staticLodRuleOf(const FrameRequest& request) {
+  const FrameLevers& levers = request.levers.drawn;
+  StaticLodParameters parameters = request.staticLod;
+  parameters.errorPx = Pixels{levers.treeErrorPx};
+  return {staticLodDistancePerError(parameters, levers.lodScale, errorPxPerRadian(request)),
+          levers.levelSpread, request.spreadFrom.value()};
+}
+
 std::vector<float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure) {
   std::vector<float> error = measure == ErrorMeasure::maximum ? index.maxErrorM : index.rmsErrorM;
   if (measure != ErrorMeasure::as_published)

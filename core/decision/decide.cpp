@@ -83,6 +83,12 @@ std::string outcomeText(const FrameDecision& d) {
                    d.occlusionResolution->heightPx);
 }
 
+/// The total of the memberships.
+TotalMembership totalOf(const FrameDecision& d, const TuningParameters& parameters) {
+  return combine(parameters.scheme.combination, parameters.scheme.rules, d.ruleFiring, d.altitudeMembership,
+                 d.pitchMembership);
+}
+
 /// Documents A and B: the memberships and their total; nothing, with a reason, if the state does not give
 /// them.
 std::optional<TotalMembership> decideTotal(const FrameInput& input, const ValidatedParameters& parameters,
@@ -106,10 +112,15 @@ std::optional<TotalMembership> decideTotal(const FrameInput& input, const Valida
   decision.pitchDeg = pitch;
   decision.altitudeMembership = altitudeMembership(parameters->altitude, altitude);
   decision.pitchMembership = pitchMembership(parameters->pitch, pitch);
-  const RuleList& rules = parameters->scheme.rules;
-  fireRules(rules, decision.altitudeMembership, decision.pitchMembership, decision.ruleFiring);
-  return combine(parameters->scheme.combination, rules, decision.ruleFiring, decision.altitudeMembership,
-                 decision.pitchMembership);
+  fireRules(parameters->scheme.rules, decision.altitudeMembership, decision.pitchMembership,
+            decision.ruleFiring);
+  return totalOf(decision, *parameters);
+}
+
+std::optional<OcclusionResolution> resolutionOf(const BandList& bands, int band) {
+  if (band < 0) return std::nullopt;
+  const Band& b = bands.band[static_cast<std::size_t>(band)];
+  return OcclusionResolution{b.widthPx, b.heightPx};
 }
 
 /// Documents A and B: which scheme, and how large a depth map.
@@ -119,12 +130,7 @@ void decideScheme(const TotalMembership& total, const ValidatedParameters& param
   const BandList& bands = parameters->scheme.bands;
   const BandChoice choice = nextBand(bands, parameters->scheme.hysteresis.value(), total.total, memory.band);
   memory.band = choice.band;
-  decision.band = choice.band;
-  if (choice.band >= 0) {
-    const Band& band = bands.band[static_cast<std::size_t>(choice.band)];
-    decision.scheme = Scheme::dynamic;
-    decision.occlusionResolution = OcclusionResolution{band.widthPx, band.heightPx};
-  }
+  setBand(decision, bands, choice.band);
   if (!total.anyFires)
     decision.reason = SchemeReason::no_rule_fires;
   else if (choice.held)
@@ -150,23 +156,47 @@ PolicyOutcome followPolicy(const CompiledPolicy& policy, const FrameInput& input
 }  // namespace
 
 FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory) {
+  return decide(input, decideWeather(input.state, *parameters, input.highestGround), parameters, memory);
+}
+
+FrameDecision decide(const FrameInput& input, const WeatherDecision& weather,
+                     const ValidatedParameters& parameters, DecisionMemory& memory) {
   // Made in place: copying what was just written in smaller pieces takes the processor longer than deciding
   // it.
   FrameDecision decision{.ruleFiring = {},
                          .occlusionResolution = {},
                          .motion = decideMotion(input.state, parameters->motion, memory.motion, input.drawn),
-                         .weather = decideWeather(input.state, *parameters, input.highestGround),
+                         .weather = weather,
                          .policy = {}};
   std::optional<TotalMembership> total = decideTotal(input, parameters, decision);
-  double lodScale = parameters->lod.scale.value();
   if (const CompiledPolicy* policy = parameters.policy()) {
     decision.policy = followPolicy(*policy, input, parameters, total ? total->total : 0, memory);
-    if (decision.policy.moves(Lever::lod_scale)) lodScale = decision.policy[Lever::lod_scale];
     if (total && decision.policy.moves(Lever::occlusion)) *total = {decision.policy[Lever::occlusion], true};
   }
   if (total) decideScheme(*total, parameters, memory, decision);
-  decision.lodScale = lodScale * decision.motion.lodScale;
   return decision;
+}
+
+void setBand(FrameDecision& decision, const BandList& bands, int band) {
+  decision.band = band;
+  decision.scheme = band < 0 ? Scheme::frustum : Scheme::dynamic;
+  decision.occlusionResolution = resolutionOf(bands, band);
+}
+
+LeverChain leversOf(const FrameDecision& d, const TuningParameters& parameters) {
+  // What the memberships alone ask for is looked up again only where a rule took their place.
+  std::optional<OcclusionResolution> unruled = d.occlusionResolution;
+  if (d.policy.moves(Lever::occlusion)) {
+    const BandList& bands = parameters.scheme.bands;
+    unruled = resolutionOf(bands, bandOf(bands, totalOf(d, parameters).total));
+  }
+  LeverChain chain;
+  chain.preset = presetLevers(parameters, unruled);
+  chain.motion = withMotion(chain.preset, d.motion);
+  chain.weather = withWeather(chain.motion, d.weather);
+  chain.policy = withPolicy(chain.weather, d.policy, d.motion, d.occlusionResolution);
+  chain.drawn = chain.policy;
+  return chain;
 }
 
 std::string explain(const FrameDecision& d, const ValidatedParameters& parameters) {

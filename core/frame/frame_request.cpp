@@ -8,12 +8,6 @@ FadingPrecipitation fallsNow(const FrameRequest& request) {
   return {weather.precipitation, weather.density, weather.density};
 }
 
-void setAllowedError(FrameRequest& request, double errorPx) {
-  const double before = request.lod.screenSpaceError.value();
-  request.lod.screenSpaceError = Pixels{errorPx};
-  request.staticLod.errorPx = Pixels{request.staticLod.errorPx.value() * errorPx / before};
-}
-
 std::optional<TerrainForm> formDrawn(const FrameRequest& request, const FormsOfTerrain& forms) {
   if (asksForTrees(request) && forms.trees) return TerrainForm::static_trees;
   const bool patches = request.staticLod.terrain == TerrainForm::patches || !forms.tiles;

@@ -7,11 +7,6 @@
 namespace trimtab {
 namespace {
 
-StaticLodRule treeRuleOf(const FrameRequest& r) {
-  return {staticLodDistancePerError(r.staticLod, r.decision.lodScale, pixelsPerRadian(r.view)),
-          r.lod.spread.value(), r.lod.spreadFrom.value()};
-}
-
 std::optional<TerrainForm> formOf(const FrameRequest& r, const LoadIndex& index) {
   return formDrawn(r, {index.tiles != nullptr, index.patches != nullptr, index.trees != nullptr});
 }
@@ -56,9 +51,9 @@ TriangleLadder FrameHold::count(const FrameRequest& request, const LoadView& vie
   TriangleLadder ladder;
   ladder.fill(lastTriangles_);
   if (!form) return ladder;
-  const double askedPx = request.lod.screenSpaceError.value();
+  const double askedPx = request.levers.policy.errorPx;
   if (*form == TerrainForm::static_trees) {
-    ladder = countTriangles(*index_->trees, treeErrorOf(request.staticLod.error), view, treeRuleOf(request),
+    ladder = countTriangles(*index_->trees, treeErrorOf(request.staticLod.error), view, staticLodRuleOf(request),
                             askedPx, stack_);
     // By that rule a distance follows from the error of a node alone, so the lever moves nothing.
     if (request.staticLod.rule == StaticDistanceRule::factor) ladder.fill(ladder.front());
@@ -84,11 +79,11 @@ HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye
   g.budgetMs = budgetMs;
   g.unseenPx = unseenPx;
   g.meshesLeft = static_cast<double>(meshesLeft_);
-  const MotionBlur& blur = request.decision.motion.blur;
-  g.asked = {request.lod.screenSpaceError.value(), request.renderScale, request.particleShare, 1};
+  const FrameLevers& asked = request.levers.policy;
+  g.asked = {asked.errorPx, asked.renderScale, asked.particleShare, 1};
   const FadingPrecipitation falls = fallsNow(request);
-  if (falls.kind != Precipitation::none) g.particles = falls.amount * request.particleShare;
-  g.blurs = blur.strength > 0;
+  if (falls.kind != Precipitation::none) g.particles = falls.amount * asked.particleShare;
+  g.blurs = asked.blurStrength > 0;
   g.imageMpx = 1e-6 * request.view.widthPx * request.view.heightPx;
   if (!index_) {
     countedNow_.fill(lastTriangles_);
@@ -142,19 +137,14 @@ HoldDecision FrameHold::decide(const HoldGiven& given, const HoldParameters& par
   if (d.reason == HoldReason::off) return d;
   // The stages of a frame teach the model, so they are measured apart.
   request.separateStages = true;
-  if (d.held.errorPx != request.lod.screenSpaceError.value()) setAllowedError(request, d.held.errorPx);
-  request.renderScale = d.held.renderScale;
-  request.particleShare = d.held.particleShare;
-  MotionBlur& blur = request.decision.motion.blur;
-  blur.strength *= d.held.blurShare;
-  if (!(blur.strength > 0)) blur = {};
+  request.levers.drawn = withBudget(request.levers.policy, d.held);
   return d;
 }
 
 /// Adds what a view draws with so many times the request's allowed error.
 void FrameHold::collect(const FrameRequest& request, const LoadView& view, double errorScale) {
   if (formOf(request, *index_) == TerrainForm::static_trees) {
-    StaticLodRule rule = treeRuleOf(request);
+    StaticLodRule rule = staticLodRuleOf(request);
     rule.distancePerError /= errorScale;
     return collectNodes(*index_->trees, treeErrorOf(request.staticLod.error), view, rule, stack_,
                         nodesAhead_);

@@ -228,7 +228,7 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("depth_map_width_px", Cell::optional, f.depthMapWidth);
   visit("depth_map_height_px", Cell::optional, f.depthMapHeight);
   visit("reason", Cell::required, d.reason);
-  visit("lod_scale", Cell::required, d.lodScale);
+  visit("lod_scale", Cell::required, f.row.levers.policy.lodScale);
   forEachMotionColumn(d.motion, visit);
   forEachWeatherColumn(d.weather, visit);
   forEachPolicyColumn(f.policy, visit);

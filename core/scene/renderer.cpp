@@ -118,7 +118,7 @@ SceneView Renderer::Impl::viewOf(const FrameRequest& r) const {
   view.textureSquares = r.overlays.textureSquares;
   view.tinted = r.overlays.colourByReason || r.overlays.colourByLevel;
   // Culled nodes are shown by their colour, however far away they are.
-  if (!r.overlays.colourByReason) view.air = airOf(r.decision.weather);
+  if (!r.overlays.colourByReason) view.air = airOf(r.decision.weather, r.levers.drawn.farM);
   view.heightM = r.eye.height.value();
   if (r.exactSlivers && report.software) view.gridStepsPerPixel = 1 << subpixelBitsOfContext();
   view.form = formDrawn(r, database.get());
@@ -172,7 +172,7 @@ FrameCounters Renderer::Impl::drawPrecipitation(const SceneView& view) {
 /// Blurs the scene, before it is scaled up, so that blur and scene cost the same number of pixels.
 FrameCounters Renderer::Impl::blurScene(const FrameRequest& r) {
   FrameCounters done;
-  const double strength = r.decision.motion.blur.strength;
+  const double strength = r.levers.drawn.blurStrength;
   if (strength > 0 || !r.skips.blurAtRest) {
     gl->clock.beginPart(&FrameCost::blur);
     if (!(strength > 0)) gl->blur.rest();
@@ -207,17 +207,15 @@ FrameCounters Renderer::Impl::drawSymbols(const FrameRequest& r) {
 
 /// Returns the request for a scene of `size`, whose errors still count the image's pixels.
 FrameRequest atSize(FrameRequest request, const ViewShape& size) {
-  const double scale = pixelsPerRadian(size) / pixelsPerRadian(request.view);
+  request.imagePxPerRadian = pixelsPerRadian(request.view);
   request.view = size;
-  request.lod.screenSpaceError = Pixels{request.lod.screenSpaceError.value() * scale};
-  request.staticLod.errorPx = Pixels{request.staticLod.errorPx.value() * scale};
   return request;
 }
 
 FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   gl->clock.start(report.software, r.separateStages, r.waitForPicture);
   lastView = r.view;
-  lastScene = scaledShape(r.view, r.renderScale);
+  lastScene = scaledShape(r.view, r.levers.drawn.renderScale);
   std::optional<FrameRequest> smaller;
   if (lastScene != lastView) smaller = atSize(r, lastScene);
   const FrameRequest& drawn = smaller ? *smaller : r;

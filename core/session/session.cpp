@@ -6,10 +6,10 @@
 #include <iterator>
 #include <utility>
 
+#include "trimtab/decision/decide.h"
 #include "trimtab/host/motion.h"
 #include "trimtab/motion/line_of_sight.h"
 #include "trimtab/policy/compiled_policy.h"
-#include "trimtab/session/lever_request.h"
 #include "trimtab/units/not_finite.h"
 #include "trimtab/weather/weather.h"
 
@@ -53,11 +53,10 @@ void Session::setParameters(const ValidatedParameters& parameters) {
   if (!current_) return;
   decided_.aboveGround = groundBelow(decided_.state);
   decided_.highestGround = highestGround();
-  trackSignals(decided_);
   DecisionMemory copy = looking_ ? lookMemory_ : memory_;
   // From where its state was decided: no time passes in an edit, and a head would seem to stand still.
   copy.motion = motionBefore_;
-  decision_ = decide(decided_, parameters_, copy);
+  decideInput(copy);
 }
 
 void Session::setGround(std::shared_ptr<const GroundHeights> ground) {
@@ -168,14 +167,14 @@ FrameInput Session::inputFor(const AircraftState& state) const {
 }
 
 /// Derives the signals, if there is a policy or somebody watches, from the state that is about to be decided.
-void Session::trackSignals(FrameInput& input) {
+void Session::trackSignals(FrameInput& input, const WeatherDecision& weather) {
   std::optional<SignalValues>& watched = signals_.watched;
   if (!replaysSignals(input)) {
     if (parameters_.policy() == nullptr && !watched) return;
     // Whoever watches sees the height before a rule asks for it.
     signals_.tracker.push(input.state,
                           watched && !input.aboveGround ? heightOverTerrain(input.state) : input.aboveGround,
-                          velocityOf(input.state), decideWeather(input.state, *parameters_));
+                          velocityOf(input.state), weather);
     if (parameters_.policy() != nullptr) input.signalValues = signals_.tracker.values();
   }
   if (watched) watched = replaysSignals(input) ? input.signalValues : signals_.tracker.values();
@@ -211,16 +210,22 @@ void Session::decideNext(FrameInput input, double kernelTime) {
   latency_.arrived(kernelTime);
 }
 
+void Session::decideInput(DecisionMemory& memory) {
+  const WeatherDecision weather = decideWeather(decided_.state, *parameters_, decided_.highestGround);
+  trackSignals(decided_, weather);
+  decision_ = decide(decided_, weather, parameters_, memory);
+  levers_ = leversOf(decision_, *parameters_);
+}
+
 /// Decides `decided_`, with a row of the trace unless it is a free camera's.
 void Session::decideWith(DecisionMemory& memory) {
   const DecisionMemory before = memory;
   const auto start = std::chrono::steady_clock::now();
-  trackSignals(decided_);
-  decision_ = decide(decided_, parameters_, memory);
+  decideInput(memory);
   decideMs_ += millisecondsSince(start);
   motionBefore_ = before.motion;
   blurPicturedAt_.reset();
-  if (keepRows_ && !looking_) rows_.push_back({decided_, before, decision_, std::nullopt});
+  if (keepRows_ && !looking_) rows_.push_back({decided_, before, decision_, levers_});
 }
 
 /// Whether an image's own state is decided instead of each state that arrives.
@@ -336,20 +341,23 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
     blur.remainingMs -= std::max(now - *blurPicturedAt_, 0.0) * 1e3;
     if (!(blur.remainingMs > 0)) blur = {};
   }
-  blurDrawn_ = blur.strength > 0;
   request.method = parameters_->culling.method;
   request.occlusion = parameters_->culling.occlusion;
   request.backFaces = parameters_->culling.backFaces;
-  request.lod = parameters_->lod;
+  request.spreadFrom = parameters_->lod.spreadFrom;
+  request.scaleTexture = parameters_->lod.texture;
   request.staticLod = parameters_->staticLod;
   request.terrain = parameters_->terrain;
-  applyLevers(request.decision.policy, request);
+  request.levers = leversOf(request.decision, *parameters_);
   request.rain = parameters_->rainLook;
   request.snow = parameters_->snowLook;
   request.precipitationForm = parameters_->weather.precipitationForm;
   air_.fade.advance(eye.time, decision_.weather);
   request.fading = air_.fade.fading();
   holdBudget(request);
+  blurDrawn_ = request.levers.drawn.blurStrength > 0;
+  levers_ = request.levers;
+  if (rows_.size() > completeRows_) rows_.back().levers = levers_;
   drawnDark_ = darkAt(eye.time);
   if (parameters_->symbology.enabled)
     request.symbology =
@@ -369,7 +377,7 @@ void Session::holdBudget(FrameRequest& request) {
   const std::optional<HoldRecord> replayed = std::exchange(budget_.replayed, std::nullopt);
   budget_.ahead.push(request.time, {request.eye, request.attitude});
   if (!p.enabled) return;
-  const double unseenPx = errorInMotion(request.lod.screenSpaceError.value(), budget_.ahead.sightDegPerS(),
+  const double unseenPx = errorInMotion(request.levers.policy.errorPx, budget_.ahead.sightDegPerS(),
                                         p.exposure.value(), pixelsPerRadian(request.view));
   if (replayed) budget_.hold.setMemory(replayed->before);
   const auto images = static_cast<std::size_t>(p.lookAhead.value());

@@ -6,24 +6,12 @@
 #include <optional>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/frame_levers.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/frame/terrain_frame.h"
 #include "trimtab/hold/frame_hold.h"
 
 namespace trimtab::views {
-
-/// The levers with which the pilot's image was drawn, after policy and arbiter; NaN before the first one. A
-/// detached or frozen observer's image has no blur, whatever is said here.
-struct DrawnLevers {
-  double errorPx = kUnknown;      ///< allowed screen-space error
-  double renderScale = kUnknown;  ///< part of the image's width and height
-  double particles = kUnknown;    ///< density of what falls, 0 to 1
-  double blur = kUnknown;         ///< strength, 0 to 1
-  double farM = kUnknown;         ///< distance beyond which no terrain is drawn; infinite without such a cut
-
- private:
-  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-};
 
 /// One frame as the docks see it: what came in, what was decided, and what drawing the last image did.
 ///
@@ -38,7 +26,9 @@ struct LiveFrame {
   double fps = std::numeric_limits<double>::quiet_NaN();
   std::shared_ptr<const FrameResult> result;  ///< null until the terrain has been drawn once
   LevelsFrame levels;                         ///< of `result`: by depth if it drew patches
-  DrawnLevers levers;                         ///< of `result`
+  /// The chain of the levers of `result`; unset before the first image. A detached or frozen observer's image
+  /// has no blur, whatever is said here.
+  std::optional<LeverChain> levers;
   HoldDecision hold;                          ///< of `result`
   HoldGains holdGains;                        ///< what each lever of `hold` gives
   std::optional<HoldOutcome> holdOutcome;     ///< of the prediction for `result`

@@ -154,6 +154,9 @@ void TraceBuffer::append(const LiveFrame& frame) {
   const FrameResult& drawn = frame.drawn();
   const SignalValues& signal = frame.input.signalValues;
   const auto measuredOr0 = [](double ms) { return std::isfinite(ms) ? ms : 0.0; };
+  const auto lever = [&frame](double FrameLevers::* value) {
+    return frame.levers ? frame.levers->drawn.*value : std::numeric_limits<double>::quiet_NaN();
+  };
   const double selectTop = measuredOr0(cost.decide) + measuredOr0(cost.select);
   const double pageTop = selectTop + measuredOr0(cost.page);
   const double occlusionTop = pageTop + measuredOr0(cost.occlusion);
@@ -168,7 +171,7 @@ void TraceBuffer::append(const LiveFrame& frame) {
                                  cost.gpu,
                                  drawn.depthMap ? drawn.depthMap->widthPx : 0.0,
                                  d.motion.rateDegPerS,
-                                 d.lodScale,
+                                 lever(&FrameLevers::lodScale),
                                  cost.select,
                                  cost.page,
                                  cost.occlusion,
@@ -194,11 +197,11 @@ void TraceBuffer::append(const LiveFrame& frame) {
                                  signal[Signal::sight_rate],
                                  signal[Signal::visibility],
                                  signal[Signal::load],
-                                 frame.levers.errorPx,
-                                 frame.levers.renderScale,
-                                 frame.levers.particles,
-                                 frame.levers.blur,
-                                 finiteOrNan(frame.levers.farM * 1e-3),
+                                 lever(&FrameLevers::errorPx),
+                                 lever(&FrameLevers::renderScale),
+                                 d.weather.density * lever(&FrameLevers::particleShare),
+                                 lever(&FrameLevers::blurStrength),
+                                 finiteOrNan(lever(&FrameLevers::farM) * 1e-3),
                                  predictedOrNan(frame.hold, frame.hold.heldMs),
                                  predictedOrNan(frame.hold, frame.hold.askedMs),
                                  frame.flip,

@@ -21,7 +21,7 @@ bool isInputAtFault(SchemeReason reason) {
 bool isDecisionChange(const FrameDecision& before, const FrameDecision& now) {
   const bool faults = isInputAtFault(now.reason) || isInputAtFault(before.reason);
   return now.scheme != before.scheme || now.band != before.band ||
-         now.occlusionResolution != before.occlusionResolution || now.lodScale != before.lodScale ||
+         now.occlusionResolution != before.occlusionResolution || now.motion.lodScale != before.motion.lodScale ||
          (faults && now.reason != before.reason);
 }
 
@@ -34,8 +34,10 @@ QString changeText(const FrameDecision& before, const FrameDecision& now) {
     said << QStringLiteral("%1 → %2").arg(schemeText(before), schemeText(now));
   else if (before.band != now.band)
     said << DecisionLog::tr("band %1").arg(now.band + 1);
-  if (before.lodScale != now.lodScale)
-    said << DecisionLog::tr("LOD scale %1 → %2").arg(before.lodScale).arg(now.lodScale);
+  if (before.motion.lodScale != now.motion.lodScale)
+    said << DecisionLog::tr("LOD scale of head motion %1 → %2")
+                .arg(before.motion.lodScale)
+                .arg(now.motion.lodScale);
   if (said.isEmpty()) said << DecisionLog::tr("input at fault, or no longer");
   return said.join(QStringLiteral(", "));
 }

@@ -214,10 +214,7 @@ views::LiveFrame FrameController::liveFrame() const {
   frame.result = at_.viewport.lastResult();
   if (frame.result) frame.levels = levels_;
   if (shown_) {
-    const FrameDecision& drawn = shown_->decision;
-    frame.levers = {shown_->lod.screenSpaceError.value(), shown_->renderScale,
-                    drawn.weather.density * shown_->particleShare, drawn.motion.blur.strength,
-                    farCutM(*shown_)};
+    frame.levers = shown_->levers;
     frame.hold = shown_->hold;
     frame.holdGains = gainsOf(session().hold().given(), frame.hold, session().parameters()->hold);
   }

@@ -122,7 +122,7 @@ FrameRequest ObserverController::seen(const FrameRequest& pilot) const {
   seen.attitude = at_.viewport.camera().attitude();
   seen.velocity.reset();
   seen.symbology.reset();
-  seen.decision.motion.blur = {};
+  seen.levers.drawn.blurStrength = 0;
   return seen;
 }
 

@@ -37,7 +37,7 @@ void WeatherController::calibrate() {
     return at_.messages.note(tr("Open a terrain first: the weather is calibrated over an image of it"));
   FrameRequest request = *frame_.shown();
   request.overlays = {};
-  request.decision.motion = {};
+  request.levers.drawn = withMotion(request.levers.preset, {});
   WeatherStage stage;
   stage.farthestM = farthestM(request.eye, terrain_.database()->info());
   const auto& last = at_.viewport.lastResult();
@@ -48,6 +48,7 @@ void WeatherController::calibrate() {
                          .arg(QString::fromStdString(at_.viewport.gl().renderer));
   stage.draw = [this, request](const WeatherDecision& weather) mutable -> std::optional<WeatherStage::Frame> {
     request.decision.weather = weather;
+    request.levers.drawn = withWeather(request.levers.drawn, weather);
     request.fading.reset();
     const auto drawn = at_.viewport.measure(request);
     if (!drawn) return std::nullopt;

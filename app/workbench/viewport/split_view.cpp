@@ -219,7 +219,7 @@ bool SplitView::follow() {
   if (!frame) return false;
   const bool back = last_ && frame->state.time < last_->state.time;
   const bool same = last_ && frame->state == last_->state;
-  const bool blurs = frame->shown.decision.motion.blur.strength > 0;
+  const bool blurs = frame->shown.levers.drawn.blurStrength > 0;
   const bool rests = same && !blurs && sameImage(frame->shown, last_->shown);
   last_ = std::move(frame);
   for (Chosen& side : sides_) {

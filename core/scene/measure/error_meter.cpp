@@ -45,7 +45,7 @@ std::size_t firstTraceIn(std::span<const FrameRequest> frames, std::size_t last)
   std::size_t first = last;
   while (first > 0) {
     const double step = frames[first].time - frames[first - 1].time;
-    const double keep = BlurPass::keptAfter(frames[first].decision.motion.blur.strength, step);
+    const double keep = BlurPass::keptAfter(frames[first].levers.drawn.blurStrength, step);
     // A frame of the same time takes the place of the one before.
     if (step != 0) weight *= keep;
     if (!(weight >= kNoTrace)) break;
@@ -93,17 +93,12 @@ FrameRequest referenceOf(const FrameRequest& request) {
   FrameRequest r = withoutEngineer(request);
   r.method = CullingCase::view_frustum;
   r.overlays.treeDepth = -1;
-  r.lod.screenSpaceError = r.staticLod.terrain == TerrainForm::patches ? kFinestPatches : kFinest;
   r.terrain.cache = std::max(r.terrain.cache, kReferenceCache);
   r.staticLod.error = ErrorMeasure::maximum;
   r.staticLod.rule = StaticDistanceRule::picture;
-  r.staticLod.errorPx = kFinest;
-  r.decision.lodScale = 1;
-  r.lod.spread = Ratio{1};
-  r.decision.occlusionResolution.reset();
-  r.decision.motion.blur = {};
-  r.decision.weather.farM = WeatherDecision::kUnlimited;
-  r.renderScale = r.particleShare = 1;
+  r.levers.drawn = {};
+  r.levers.drawn.errorPx = (r.staticLod.terrain == TerrainForm::patches ? kFinestPatches : kFinest).value();
+  r.levers.drawn.treeErrorPx = kFinest.value();
   return r;
 }
 
@@ -320,7 +315,7 @@ FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const Fram
   bound.restore();
 
   const GeometricError geometric =
-      geometricError(upTo(request.decision.weather.farM, reference.distances), distances, v);
+      geometricError(upTo(request.levers.drawn.farM, reference.distances), distances, v);
   error.geometricMaxPx = geometric.maxPx;
   error.geometricMeanPx = geometric.meanPx;
   error.psnrDb = psnrDb(reference.pixels, ours, v.widthPx, v.heightPx);

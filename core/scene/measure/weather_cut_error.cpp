@@ -15,7 +15,7 @@ CutError cutError(Renderer& renderer, const FrameRequest& request, unsigned fbo)
     return renderer.readPixels(v.widthPx, v.heightPx);
   };
   FrameRequest whole = request;
-  whole.decision.weather.farM = WeatherDecision::kUnlimited;
+  whole.levers.drawn.farM = WeatherDecision::kUnlimited;
   const auto before = pixelsOf(whole), after = pixelsOf(request);
   error.pixels = before.size() / 4;
   for (std::size_t i = 0; i < before.size(); i += 4) {

@@ -26,8 +26,8 @@ constexpr const char* kNoGraph =
 /// Returns the occlusion resolution that the band asks for; unset if the scheme asks for no occlusion test.
 std::optional<OcclusionResolution> occlusionResolution(const FrameRequest& request) {
   if (request.method != CullingCase::proposed) return {};
-  if (request.decision.occlusionResolution || request.skips.schemeFrustum)
-    return request.decision.occlusionResolution;
+  const std::optional<OcclusionResolution>& asked = request.levers.drawn.occlusion;
+  if (asked || request.skips.schemeFrustum) return asked;
   const Band& smallest = kDepthMapBands.span().front();
   return OcclusionResolution{smallest.widthPx, smallest.heightPx};
 }

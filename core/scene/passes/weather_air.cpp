@@ -21,7 +21,7 @@ constexpr double kGreyAtM = 1500;
 
 }  // namespace
 
-Air airOf(const WeatherDecision& weather) {
+Air airOf(const WeatherDecision& weather, double farM) {
   Air air;
   air.colour = kHaze;
   if (weather.fogged && weather.extinctionPerM > 0) {
@@ -33,11 +33,11 @@ Air airOf(const WeatherDecision& weather) {
     air.layered = weather.layerTopM < WeatherDecision::kUnlimited;
     if (air.layered) air.topM = static_cast<float>(weather.layerTopM);
   }
-  if (weather.farM < double{Air::kFarthest}) {
-    const double cut = std::max(weather.farM, 1e-3);
+  if (farM < double{Air::kFarthest}) {
+    const double cut = std::max(farM, 1e-3);
     air.cutM = static_cast<float>(cut);
     // Nothing is left to fade at a safe cut, and what fades before it could be seen.
-    const bool safe = air.layered && weather.farM >= weather.safeFarM;
+    const bool safe = air.layered && farM >= weather.safeFarM;
     air.fadePerM = safe ? kNoFade : static_cast<float>(1 / (kCutFade * cut));
     air.clear = false;
   }

@@ -34,7 +34,7 @@ inline constexpr double kCutFade = 0.15;
 /// Returns the air of a decision; any decision gives air that can be drawn. An extinction that is negative
 /// or not a number means no fog, an infinite one hides everything; a far distance that is not a number cuts
 /// nothing, one below 0 everything.
-Air airOf(const WeatherDecision& weather);
+Air airOf(const WeatherDecision& weather, double farM);
 
 /// What haze_layer.glsl and sky.frag.glsl need to know of a layer, from the heights of the eye and of its
 /// top, metres above mean sea level.

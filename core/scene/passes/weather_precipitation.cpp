@@ -58,7 +58,7 @@ std::optional<PrecipitationView> precipitationView(const FrameRequest& request, 
   const bool bounded = request.precipitationForm == PrecipitationForm::bounded;
   const FadingPrecipitation falls = fallsNow(request);
   if (falls.kind == Precipitation::none ||
-      !(falls.density > 0 && falls.amount > 0 && request.particleShare > 0))
+      !(falls.density > 0 && falls.amount > 0 && request.levers.drawn.particleShare > 0))
     return {};
   Vec3 eye;
   if (request.velocity)
@@ -69,9 +69,9 @@ std::optional<PrecipitationView> precipitationView(const FrameRequest& request, 
       .density = std::min(falls.density, 1.0),
       .amount = std::min(falls.amount, 1.0),
       .form = request.precipitationForm,
-      .share = bounded ? std::min(request.particleShare, 1.0)
-                       : std::max(std::round(request.particleShare * kShareSteps), 1.0) / kShareSteps,
-      .renderScale = request.renderScale > 0 ? std::min(request.renderScale, 1.0) : 1,
+      .share = bounded ? std::min(request.levers.drawn.particleShare, 1.0)
+                       : std::max(std::round(request.levers.drawn.particleShare * kShareSteps), 1.0) / kShareSteps,
+      .renderScale = request.levers.drawn.renderScale > 0 ? std::min(request.levers.drawn.renderScale, 1.0) : 1,
       .time = request.time,
       .velocity = frame.ecefToLocal() * (toEarth * (eye - eastNorthUp(request.wind))),
       .airDrift = frame.ecefToLocal() * request.airDrift,

@@ -93,7 +93,7 @@ void PatchDrawer::drawNodes(unsigned program, std::span<const TileDraw> patches)
   const BoundSlots slots(gl_->layer.slotTexture(), gl_->layer.tintTexture());
   glUniform2i(glGetUniformLocation(program, "eyePost"), gl_->ground.eyeColumn(), gl_->ground.eyeRow());
   const FrameRequest& r = frame_->request;
-  gl_->ground.bind(program, r.lod.texture ? r.decision.lodScale : 1);
+  gl_->ground.bind(program, r.scaleTexture ? r.levers.drawn.lodScale : 1);
   gl_->layer.draw(patches);
   gl_->ground.unbind();
 }

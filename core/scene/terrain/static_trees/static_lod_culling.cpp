@@ -54,13 +54,9 @@ const StaticLodIndex& StaticLodCulling::index() const {
 FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePose& eye) {
   FrameCounters counters;
   const ViewShape& v = request.view;
-  const TreeCutKey key{
-      eye.position,
-      request.staticLod.error,
-      {staticLodDistancePerError(request.staticLod, request.decision.lodScale, pixelsPerRadian(v)) *
-           defects_.statedErrorScale,
-       request.lod.spread.value(), request.lod.spreadFrom.value()},
-      request.overlays.treeDepth};
+  TreeCutKey key{eye.position, request.staticLod.error, staticLodRuleOf(request),
+                 request.overlays.treeDepth};
+  key.rule.distancePerError *= defects_.statedErrorScale;
   if (cutKey_ != key || !request.skips.sameCut) {
     if (key.depth >= 0)
       selectStaticDepth(index(), key.depth, cut_);
@@ -78,7 +74,7 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
                           eye,
                           v,
                           request.method,
-                          request.decision.occlusionResolution,
+                          request.levers.drawn.occlusion,
                           farM,
                           request.overlays.treePicture,
                           request.testedWithinM};
@@ -151,7 +147,7 @@ std::uint64_t StaticLodCulling::hideableTriangles(Vec3 eye) const {
 
 OcclusionResult StaticLodCulling::occlusion(const FrameRequest& request) const {
   OcclusionResult result;
-  const std::optional<OcclusionResolution>& size = request.decision.occlusionResolution;
+  const std::optional<OcclusionResolution>& size = request.levers.drawn.occlusion;
   if (request.method != CullingCase::proposed || !size || request.overlays.treePicture) return {};
   if (request.frozenEye)
     result.note = "What is hidden stays as it was when culling was frozen.";

@@ -103,9 +103,9 @@ class HazeLayerPicture : public SceneTest {
 TEST(Air, fadesBeforeACutOfTheLayerOnlyWhereSomethingIsLeftToFade) {
   WeatherDecision w = hazeAt(Metres{500}, 5000, 3000, Metres{1800});
   ASSERT_EQ(w.farReason, FarReason::safe);
-  EXPECT_GE(scene::airOf(w).fadePerM * w.farM, 1e6) << "what fades could be seen";
+  EXPECT_GE(scene::airOf(w, w.farM).fadePerM * w.farM, 1e6) << "what fades could be seen";
   w.farM *= 0.5;  // as a policy may
-  EXPECT_NEAR(double{scene::airOf(w).fadePerM} * w.farM * scene::kCutFade, 1, 1e-6)
+  EXPECT_NEAR(double{scene::airOf(w, w.farM).fadePerM} * w.farM * scene::kCutFade, 1, 1e-6)
       << "an edge could be seen";
 }
 
@@ -119,7 +119,7 @@ TEST_F(HazeLayerPicture, isTheOpticalDepthAtEveryPixelOfTheGround) {
     for (const double visibility : {300.0, 3000.0, 40e3})
       for (const double top : {r.eye.height.value() - 800, r.eye.height.value() + 20, 6000.0}) {
         r.decision.weather = hazeAt(r.eye.height, visibility, top, {}, RatioMode::off);
-        const auto fog = scene::airOf(r.decision.weather).colour;
+        const auto fog = scene::airOf(r.decision.weather, r.levers.drawn.farM).colour;
         const Pixels8 shown = picture(r);
         std::size_t wrong = 0;
         for (std::size_t i = 0; i < metres.size(); ++i) {
@@ -145,7 +145,7 @@ TEST_F(HazeLayerPicture, endsInTheSkyWhereTheLayerEnds) {
   for (const double visibility : {2000.0, 20e3})
     for (const double top : {r.eye.height.value() - 100, r.eye.height.value() + 500}) {
       r.decision.weather = hazeAt(r.eye.height, visibility, top, {}, RatioMode::off);
-      const auto fog = scene::airOf(r.decision.weather).colour;
+      const auto fog = scene::airOf(r.decision.weather, r.levers.drawn.farM).colour;
       const Pixels8 shown = picture(r);
       for (std::size_t i = 0; i < metres.size(); ++i) {
         if (std::isfinite(metres[i]) || riseOf(r, i) < 0.01) continue;

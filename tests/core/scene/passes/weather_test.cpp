@@ -84,7 +84,7 @@ TEST(Air, takesAnyDecision) {
     w.fogged = c.fogged;
     w.extinctionPerM = c.extinction;
     w.farM = c.farM;
-    const scene::Air air = scene::airOf(w);
+    const scene::Air air = scene::airOf(w, w.farM);
     EXPECT_EQ(air.clear, c.clear) << c.name;
     EXPECT_TRUE(std::isfinite(air.extinction) && air.extinction >= 0) << c.name;
     EXPECT_TRUE(std::isfinite(air.fadePerM) && air.fadePerM > 0 && air.cutM > 0) << c.name;

@@ -48,8 +48,8 @@ struct CutKey {
 /// Returns the key of what a request asks for. `statedErrorScale` is 1 unless a test plants a defect.
 inline CutKey cutKeyOf(const FrameRequest& request, Vec3 eye, double statedErrorScale) {
   return {eye,
-          {request.lod.screenSpaceError.value() / statedErrorScale, request.decision.lodScale,
-           pixelsPerRadian(request.view), request.lod.spread.value(), request.lod.spreadFrom.value()}};
+          {request.levers.drawn.errorPx / statedErrorScale, request.levers.drawn.lodScale,
+           errorPxPerRadian(request), request.levers.drawn.levelSpread, request.spreadFrom.value()}};
 }
 
 }  // namespace trimtab

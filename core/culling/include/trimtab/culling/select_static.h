@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "trimtab/culling/select.h"
+#include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/static_lod_frame.h"
 #include "trimtab/frame/static_lod_index.h"
 
@@ -27,6 +28,9 @@ struct StaticLodRule {
   double spread = 1, spreadFromM = 5000;  ///< LodParameters
   friend bool operator==(const StaticLodRule&, const StaticLodRule&) = default;
 };
+
+/// Returns the rule of what a request asks for.
+StaticLodRule staticLodRuleOf(const FrameRequest& request);
 
 /// Fills `cut` with exactly one node for each leaf, from the roots down: a node is drawn if the eye is at
 /// least error * distancePerError from its box, spread as the rule says, else its children are tested; leaves

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/frame_levers.h"
 #include "trimtab/policy/lever_drive.h"
 #include "trimtab/preset/table.h"
 
@@ -24,6 +25,15 @@ struct DecisionMemory {
 /// It is pure except for `memory`, allocates nothing, and gives the same bits on replay. An altitude or pitch
 /// that is not a number gives *frustum*; a part that gets such input leaves its own memory unchanged.
 FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory);
+/// Does the same with the weather of decideWeather(), for whoever has decided it already.
+FrameDecision decide(const FrameInput& input, const WeatherDecision& weather,
+                     const ValidatedParameters& parameters, DecisionMemory& memory);
+
+/// Returns the chain of the levers up to the policy (frame_levers.h); `drawn` is as the policy leaves them.
+LeverChain leversOf(const FrameDecision& decision, const TuningParameters& parameters);
+
+/// Sets scheme and occlusion resolution to those of a band; -1 is the scheme *frustum*.
+void setBand(FrameDecision& decision, const BandList& bands, int band);
 
 /// Returns the decision in words and numbers, on one line, for the log and the dock.
 std::string explain(const FrameDecision& decision, const ValidatedParameters& parameters);

@@ -147,7 +147,6 @@ struct FrameDecision {
   int band = -1;  ///< index into the bands; -1 if the total is below all of them
   std::optional<OcclusionResolution> occlusionResolution;  ///< if unset, no occlusion test of any kind
   SchemeReason reason = SchemeReason::below_first_band;
-  double lodScale = 1;  ///< the preset's times that of head motion; 1 is full detail, larger is coarser
   MotionDecision motion;
   WeatherDecision weather;
   PolicyOutcome policy;

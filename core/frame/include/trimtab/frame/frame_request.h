@@ -5,6 +5,7 @@
 
 #include "trimtab/frame/eye_pose.h"
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/frame_levers.h"
 #include "trimtab/frame/hold_decision.h"
 #include "trimtab/frame/overlays.h"
 #include "trimtab/frame/symbology_request.h"
@@ -44,13 +45,14 @@ struct FrameRequest {
   std::optional<FadingPrecipitation> fading;
   Attitude attitude;  ///< of the view: aircraft, or aircraft and head
   ViewShape view;     ///< perspective, and the image's size
-  /// The part of the image's width and height at which the scene is drawn before it is scaled up; symbols are
-  /// drawn at the image's size. Errors in pixels still count the image's pixels.
-  double renderScale = 1;
-  double particleShare = 1;  ///< the share of the drops and flakes of the weather that is drawn
+  /// Pixels of the image per radian, which errors in pixels count, if `view` is a scene of another size that
+  /// is scaled to the image; 0: those of `view`.
+  double imagePxPerRadian = 0;
   FrameDecision decision;
-  /// What the arbiter of the budget decided; the levers above and the decision already have its values.
-  HoldDecision hold;
+  /// How coarsely it is drawn: LeverChain::drawn is all that the renderer reads of it, the other links say who
+  /// changed what.
+  LeverChain levers;
+  HoldDecision hold;  ///< the reason of the chain's last step
   CullingCase method = CullingCase::proposed;
   OcclusionMethod occlusion =
       OcclusionMethod::depth_map;  ///< of levels and patches; static trees have their own
@@ -58,8 +60,9 @@ struct FrameRequest {
   /// are drawn. It serves the experiment that decides for each node.
   double testedWithinM = WeatherDecision::kUnlimited;
   bool backFaces = true;  ///< culls nodes that face away from the eye, except in CullingCase::none
-  LodParameters lod;
-  StaticLodParameters staticLod;
+  Metres spreadFrom{5000};    ///< as LodParameters::spreadFrom
+  bool scaleTexture = false;  ///< the ground's texture shrinks with the LOD scale too
+  StaticLodParameters staticLod;  ///< apart from its errorPx, for which FrameLevers::treeErrorPx counts
   TerrainParameters terrain;
   Overlays overlays;
   /// If set, culling and LOD selection use this eye while the image uses the real one; its frustum is drawn.
@@ -89,18 +92,19 @@ struct FrameRequest {
   Skips skips;
 };
 
-/// Returns the distance from the eye, metres, beyond which this frame draws no terrain: the weather's far
-/// cut. Infinite if the weather sets none, or if Skips::beyondVisibility is off.
+/// Returns the distance from the eye, metres, beyond which this frame draws no terrain: the far
+/// distance of its levers. Infinite if nothing sets one, or if Skips::beyondVisibility is off.
 inline double farCutM(const FrameRequest& request) {
-  return request.skips.beyondVisibility ? request.decision.weather.farM : WeatherDecision::kUnlimited;
+  return request.skips.beyondVisibility ? request.levers.drawn.farM : WeatherDecision::kUnlimited;
 }
 
 /// Returns what falls in this image: what the decision says, or in the bounded form what fades in or out.
 FadingPrecipitation fallsNow(const FrameRequest& request);
 
-/// Sets the allowed screen-space error of levels and patches, pixels, and scales that of static trees with
-/// it.
-void setAllowedError(FrameRequest& request, double errorPx);
+/// Returns the pixels of an angle of one radian that errors in pixels count.
+inline double errorPxPerRadian(const FrameRequest& request) {
+  return request.imagePxPerRadian > 0 ? request.imagePxPerRadian : pixelsPerRadian(request.view);
+}
 
 /// The forms in which a terrain can be drawn.
 struct FormsOfTerrain {

@@ -63,7 +63,7 @@ struct MotionDecision {
   double blurLimit = 0, restoreLimit = 0;
   bool limitsInMs = false;
   std::uint32_t level = 0;  ///< steps from full detail
-  double lodScale = 1;      ///< of head motion alone; FrameDecision::lodScale is this times the preset's
+  double lodScale = 1;      ///< of head motion alone; FrameLevers::lodScale is this times the preset's or the policy's
   MotionBlur blur;
 
   friend bool operator==(const MotionDecision&, const MotionDecision&) = default;

@@ -79,8 +79,7 @@ struct WeatherDecision {
   /// is unlimited if something may be seen at any distance, and in AirModel::uniform, which does not use it.
   double safeFarM = kUnlimited;
   double nearFarRatio = 0;  ///< WeatherParameters::defaultNear / farM; 0 while nothing is cut
-  /// Nothing farther from the eye is drawn. In a frame request a policy may have multiplied it and divided
-  /// nearFarRatio by the same factor (applyLevers).
+  /// Nothing farther from the eye is drawn, unless a policy moves the far distance (FrameLevers::farM).
   double farM = kUnlimited;
   WeatherReason reason = WeatherReason::clear;
   FarReason farReason = FarReason::clear;

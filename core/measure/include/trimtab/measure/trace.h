@@ -39,7 +39,8 @@ struct TraceRow {
   FrameInput input;
   DecisionMemory before;
   FrameDecision decision;
-  std::optional<TraceFrame> frame;
+  LeverChain levers{};  ///< of that frame, or of the decision if no frame showed it
+  std::optional<TraceFrame> frame{};
   std::optional<HoldRecord> hold{};  ///< of that frame, if its budget was held
 };
 

@@ -86,6 +86,9 @@ class Session {
   /// Returns the decision for the last packet; after `setParameters`, the decision that it would get now.
   /// Head motion goes from the packet before it, because no time passes in an edit.
   const FrameDecision& decision() const { return decision_; }
+  /// Returns the chain of the levers of the last image requested (frame_levers.h); before it, that of the last
+  /// decision.
+  const LeverChain& levers() const { return levers_; }
   /// Returns the memory that the next packet will be decided with.
   const DecisionMemory& memory() const { return memory_; }
   LinkState linkState(double now) const;
@@ -158,7 +161,8 @@ class Session {
   bool decidesImages() const;
   void decideImage(double now);
   FrameInput inputFor(const AircraftState& state) const;
-  void trackSignals(FrameInput& input);
+  void decideInput(DecisionMemory& memory);
+  void trackSignals(FrameInput& input, const WeatherDecision& weather);
   void holdBudget(FrameRequest& request);
   std::optional<Metres> heightOverTerrain(const AircraftState& state) const;
   std::optional<Metres> groundBelow(const AircraftState& state) const;
@@ -177,6 +181,7 @@ class Session {
   std::optional<FrameInput> current_;  ///< of the newest state
   FrameInput decided_;                 ///< of the last decision
   FrameDecision decision_;
+  LeverChain levers_;
   ImageRate imageRate_;
   std::optional<std::uint64_t> lastVertices_;  ///< of the last finished image
   FrameCost lastCost_;

@@ -1,0 +1,77 @@
+#include "trimtab/frame/frame_levers.h"
+
+namespace trimtab {
+namespace {
+
+/// Static trees keep their share of the error, so that a lever which rests at the preset's value changes
+/// nothing in any form of terrain.
+void setError(FrameLevers& levers, double errorPx) {
+  if (errorPx == levers.errorPx) return;
+  levers.treeErrorPx *= errorPx / levers.errorPx;
+  levers.errorPx = errorPx;
+}
+
+}  // namespace
+
+FrameLevers presetLevers(const TuningParameters& preset, std::optional<OcclusionResolution> occlusion) {
+  FrameLevers levers;
+  levers.errorPx = preset.lod.screenSpaceError.value();
+  levers.treeErrorPx = preset.staticLod.errorPx.value();
+  levers.lodScale = preset.lod.scale.value();
+  levers.levelSpread = preset.lod.spread.value();
+  levers.occlusion = occlusion;
+  return levers;
+}
+
+FrameLevers withMotion(FrameLevers levers, const MotionDecision& motion) {
+  levers.lodScale *= motion.lodScale;
+  levers.blurStrength = motion.blur.strength;
+  return levers;
+}
+
+FrameLevers withWeather(FrameLevers levers, const WeatherDecision& weather) {
+  levers.farM = weather.farM;
+  return levers;
+}
+
+FrameLevers withPolicy(FrameLevers levers, const PolicyOutcome& policy, const MotionDecision& motion,
+                       std::optional<OcclusionResolution> occlusion) {
+  if (policy.moves(Lever::occlusion)) levers.occlusion = occlusion;
+  if (policy.moves(Lever::screen_space_error)) setError(levers, policy[Lever::screen_space_error]);
+  if (policy.moves(Lever::lod_scale)) levers.lodScale = policy[Lever::lod_scale] * motion.lodScale;
+  if (policy.moves(Lever::far_distance)) levers.farM *= policy[Lever::far_distance];
+  if (policy.moves(Lever::particle_density)) levers.particleShare = policy[Lever::particle_density];
+  if (policy.moves(Lever::blur_strength)) levers.blurStrength *= policy[Lever::blur_strength];
+  if (policy.moves(Lever::render_scale)) levers.renderScale = policy[Lever::render_scale];
+  return levers;
+}
+
+FrameLevers withBudget(FrameLevers levers, const HeldLevers& held) {
+  setError(levers, held.errorPx);
+  levers.renderScale = held.renderScale;
+  levers.particleShare = held.particleShare;
+  levers.blurStrength *= held.blurShare;
+  return levers;
+}
+
+double valueOf(const FrameLevers& levers, const FrameLeverRow& row) {
+  if (row.value != nullptr) return levers.*row.value;
+  return levers.occlusion ? levers.occlusion->widthPx : 0;
+}
+
+LeverStep lastChange(const LeverChain& chain, const FrameLeverRow& row) {
+  for (std::size_t i = kLeverSteps; --i > 0;) {
+    const auto step = static_cast<LeverStep>(i), before = static_cast<LeverStep>(i - 1);
+    if (valueOf(chain.after(step), row) != valueOf(chain.after(before), row)) return step;
+  }
+  return LeverStep::preset;
+}
+
+std::string_view toText(LeverStep step) {
+  constexpr std::array<std::string_view, kLeverSteps> kNames{"preset", "head motion", "weather", "policy",
+                                                             "budget"};
+  const auto at = static_cast<std::size_t>(step);
+  return at < kNames.size() ? kNames[at] : std::string_view{};
+}
+
+}  // namespace trimtab
