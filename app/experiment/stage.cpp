@@ -79,10 +79,12 @@ std::vector<std::uint8_t> Stage::pixels(const FrameRequest& request) {
 }
 
 scene::CutError Stage::cutError(const FrameRequest& request) {
+  offscreen_->makeCurrent();
   return scene::cutError(renderer_, request, offscreen_->framebuffer());
 }
 
 std::vector<std::uint8_t> Stage::shown() {
+  offscreen_->makeCurrent();
   return renderer_.readPixels(width_, height_);
 }
 

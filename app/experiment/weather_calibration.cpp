@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "stage.h"
-#include "trimtab/units/number.h"
 #include "trimtab/terrain/grid/progress.h"
+#include "trimtab/units/number.h"
 #include "weather_view.h"
 
 namespace trimtab::experiment {

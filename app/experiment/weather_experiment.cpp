@@ -56,9 +56,14 @@ Result<Report> runWeather(const Setup& setup) {
                              "density",
                              "fps_fixed_ratio",
                              "fps_adaptive",
+                             "fps_gain",
+                             "fps_gain_low",
+                             "fps_gain_high",
                              "frame_ms_uncut",
                              "frame_ms",
                              "frame_ms_ratio",
+                             "frame_ms_ratio_low",
+                             "frame_ms_ratio_high",
                              "far_km_fixed",
                              "far_km",
                              "one_setting",
@@ -91,19 +96,25 @@ Result<Report> runWeather(const Setup& setup) {
         std::snprintf(what, sizeof what, "%.0f vertices, %s, %s", reached, fall.name, kDensities[d]);
         if (setup.progress && !setup.progress(done / runs, what)) return cancelled();
         const WeatherStep step = fall.steps[d];
-        const double clearMs = view.ms({});
         const WeatherDecision fixed = weatherOf(view.preset(), step, RatioMode::fixed);
-        const double fixedMs = view.ms(fixed);
         const double lostToFixed = double(view.cutError(fixed).changed);
         if (d == 0) {
+          const auto ms = view.inTurns(std::array{WeatherDecision{}, fixed});
+          const PairedRatio gain = pairedRatio(ms[0], ms[1]);
+          const double clearMs = quantileOf(ms[0], 0.5);
           const WeatherView::Held held = view.held({}, kHeld);
           report.measured.rows.push_back({reached,
                                           fall.name,
                                           "clear",
-                                          1000 / fixedMs,
+                                          1000 / quantileOf(ms[1], 0.5),
                                           1000 / clearMs,
+                                          gain.median,
+                                          gain.low,
+                                          gain.high,
                                           clearMs,
                                           clearMs,
+                                          1.0,
+                                          1.0,
                                           1.0,
                                           fixed.farM / 1000,
                                           Cell(),
@@ -123,20 +134,26 @@ Result<Report> runWeather(const Setup& setup) {
         const auto found = calibrateOn(view, setup, view.preset(), step, kMostTrials,
                                        [&] { return !setup.progress || setup.progress(done / runs, what); });
         if (!found) return cancelled();
-        // Where no cut wins back what falls, the strongest cut at the preset's density is what the mode can
-        // do.
-        const double ms = costsTooMuch(*found) ? found->strongestMs : found->matchedMs;
+        // Where no cut wins back what falls, this is the strongest cut at the preset's density.
         const WeatherDecision weather = weatherOf(tunedBy(*found, view.preset()), step, RatioMode::adaptive);
+        const WeatherDecision uncut = weatherOf(view.preset(), step, RatioMode::off);
+        const auto ms = view.inTurns(std::array{WeatherDecision{}, fixed, uncut, weather});
+        const PairedRatio gain = pairedRatio(ms[3], ms[1]), ofClear = pairedRatio(ms[0], ms[3]);
         const scene::CutError lost = view.cutError(weather);
-        const WeatherView::Held held = view.held(weatherOf(view.preset(), step, RatioMode::off), kHeld);
+        const WeatherView::Held held = view.held(uncut, kHeld);
         report.measured.rows.push_back({reached,
                                         fall.name,
                                         kDensities[d],
-                                        1000 / fixedMs,
-                                        1000 / ms,
-                                        found->uncutMs,
-                                        ms,
-                                        ms / found->clearMs,
+                                        1000 / quantileOf(ms[1], 0.5),
+                                        1000 / quantileOf(ms[3], 0.5),
+                                        gain.median,
+                                        gain.low,
+                                        gain.high,
+                                        quantileOf(ms[2], 0.5),
+                                        quantileOf(ms[3], 0.5),
+                                        ofClear.median,
+                                        ofClear.low,
+                                        ofClear.high,
                                         fixed.farM / 1000,
                                         weather.farM / 1000,
                                         isOneSetting(fixed, weather) ? "yes" : "no",
@@ -171,9 +188,10 @@ Result<Report> runWeather(const Setup& setup) {
     report.notes.push_back(text);
   }
   report.notes.push_back(
-      "frame_ms_ratio is to the clear frame measured just before. Where the outcome says that the cut is not "
-      "enough, what "
-      "falls costs more than the whole terrain: density_that_fits is what this machine can show.");
+      "Clear, fixed, uncut and adaptive frames are drawn in turns. fps_gain is the adaptive rate over the "
+      "fixed one, frame_ms_ratio the adaptive time over the clear one; _low and _high are the ends of the "
+      "95 % interval. Where the outcome says that the cut is not enough, what falls costs more than the "
+      "whole terrain: density_that_fits is what this machine can show.");
   report.notes.push_back(
       "cut_changed_pixels counts pixels that the adaptive far cut changed in the fogged picture, and "
       "cut_largest_of_255 is by how much; fixed_cut_changed_pixels counts those of the fixed ratio, whose "

@@ -119,12 +119,13 @@ Result<Report> runWeatherProtocol(const Setup& setup) {
         apply(found, tuned);
         const WeatherDecision weather = weatherOf(tuned, fall.steps[d], RatioMode::adaptive);
         view.setError(views[trial.appliedAt].first);
-        const WeatherView::BesideClear drawn = view.besideClear(weather);
-        report.measured.rows.push_back(
-            {trial.calibratedAt, trial.appliedAt, views[trial.appliedAt].second, fall.name, kDensities[d],
-             weather.density, weather.farM / 1000, 1000 / drawn.clearMs, 1000 / drawn.ms,
-             drawn.ofClear.median, drawn.ofClear.low, drawn.ofClear.high, resultOf(drawn.ofClear, tolerance),
-             std::string(toText(found.outcome))});
+        const std::vector<std::vector<double>> ms = view.inTurns(std::array{WeatherDecision{}, weather});
+        const PairedRatio ofClear = pairedRatio(ms[0], ms[1]);
+        report.measured.rows.push_back({trial.calibratedAt, trial.appliedAt, views[trial.appliedAt].second,
+                                        fall.name, kDensities[d], weather.density, weather.farM / 1000,
+                                        1000 / quantileOf(ms[0], 0.5), 1000 / quantileOf(ms[1], 0.5),
+                                        ofClear.median, ofClear.low, ofClear.high,
+                                        resultOf(ofClear, tolerance), std::string(toText(found.outcome))});
       }
   char text[520];
   std::snprintf(

@@ -23,8 +23,8 @@ constexpr int kTurn = 9, kSettlingTurns = 10, kTurns = 6;
 constexpr int kLearningTurns = 12;
 /// The clear frame's time is the median of the last turns, because the machine's speed changes.
 constexpr int kRemembered = 3 * kTurn;
-/// So many pairs of clear air and weather have an interval that leaves out the farthest at either end.
-constexpr int kPairs = 9;
+/// So many pairs have an interval that leaves out the farthest at either end.
+constexpr std::size_t kTurnsOfEach = 9;
 
 }  // namespace
 
@@ -100,13 +100,14 @@ double WeatherView::ms(const WeatherDecision& weather) {
   return quantileOf(drawn(weather, repeats_), 0.5);
 }
 
-WeatherView::BesideClear WeatherView::besideClear(const WeatherDecision& weather) {
-  std::vector<double> clearMs, weatherMs;
-  for (int pair = 0; pair < kPairs; ++pair) {
-    clearMs.push_back(ms({}));
-    weatherMs.push_back(ms(weather));
-  }
-  return {quantileOf(clearMs, 0.5), quantileOf(weatherMs, 0.5), pairedRatio(clearMs, weatherMs)};
+std::vector<std::vector<double>> WeatherView::inTurns(std::span<const WeatherDecision> weathers) {
+  std::vector<std::vector<double>> medians(weathers.size());
+  for (std::size_t turn = 0; turn < kTurnsOfEach; ++turn)
+    for (std::size_t i = 0; i < weathers.size(); ++i) {
+      const std::size_t which = (turn + i) % weathers.size();
+      medians[which].push_back(ms(weathers[which]));
+    }
+  return medians;
 }
 
 WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overClear) {

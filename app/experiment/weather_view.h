@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,13 +52,9 @@ class WeatherView {
   void setError(double px);
   /// Returns the median work time of a frame with this weather, milliseconds.
   double ms(const WeatherDecision& weather);
-  /// A weather beside clear air, milliseconds of work.
-  struct BesideClear {
-    double clearMs = 0, ms = 0;  ///< medians
-    PairedRatio ofClear;         ///< its time over that of clear air
-  };
-  /// Measures frames with this weather and frames of clear air in turns: enough of them for an interval.
-  BesideClear besideClear(const WeatherDecision& weather);
+  /// Draws frames of each weather in turns, so often that pairs of turns have an interval. No weather is
+  /// always first. Returns the medians of the turns for each weather, milliseconds of work.
+  std::vector<std::vector<double>> inTurns(std::span<const WeatherDecision> weathers);
   /// What the arbiter made of a frame.
   struct Held {
     PairedRatio ofClear;  ///< its work time over that of the clear frame

@@ -120,6 +120,31 @@ TEST_F(SplitViewTest, equalPresetsHaveABlackMapAndOthersShowWhereTheyDiffer) {
   EXPECT_EQ(view().heatMap().map(), black());
 }
 
+TEST_F(SplitViewTest, rulesKnowWhatTheImagesOfTheirOwnPresetDraw) {
+  const ScratchDir dir;
+  const auto fileOf = [&](const char* name, const char* rule) {
+    Preset preset;
+    preset.name = name;
+    preset.parameters = w().draft().parameters();
+    preset.parameters.policy.enabled = true;
+    preset.parameters.policy.terms.line = {"triangles some = ramp 0 1", "load some = ramp 0 0.001"};
+    preset.parameters.policy.rules.line = {rule};
+    std::ofstream(dir / (std::string(name) + ".json")) << *presetText(preset);
+    return QString::fromStdString((dir / (std::string(name) + ".json")).string());
+  };
+  const QString counts = fileOf("counts", "if triangles is some then screen_space_error = 64"),
+                loads = fileOf("loads", "if load is some then screen_space_error = 64");
+  const auto triangles = [&](int row) {
+    return QLocale().toULongLong(view().numbers().item(row, 5)->text());
+  };
+  choose("default", counts);
+  EXPECT_LT(triangles(1), triangles(0));
+  // Its time is known once the view rests.
+  choose("default", loads);
+  EXPECT_TRUE(waitFor([&] { return view().upToDate() && triangles(1) < triangles(0); }, 20000))
+      << triangles(0) << " and " << triangles(1);
+}
+
 TEST_F(SplitViewTest, followsTheFrameAndRestsWhenHiddenOrNothingMoves) {
   ASSERT_TRUE(settle());
   ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));

@@ -35,7 +35,13 @@ SnapshotsPanel::SnapshotsPanel(Draft& draft, Snapshots& snapshots, QWidget* pare
   grid->setContentsMargins(6, 4, 6, 4);
   grid->setColumnStretch(1, 1);
   for (int slot = 0; slot < Snapshots::kCount; ++slot) makeLine(*grid, slot);
-  grid->setRowStretch(2 * Snapshots::kCount, 1);
+  auto* trust = new QLabel(tr(
+      "Medians of images that were not drawn in turns: where the flight or the machine changed between two "
+      "snapshots, so did their times. Compare draws two presets in turns."));
+  trust->setWordWrap(true);
+  setTextColour(*trust, quietColour(palette()));
+  grid->addWidget(trust, 2 * Snapshots::kCount, 0, 1, 5);
+  grid->setRowStretch(2 * Snapshots::kCount + 1, 1);
   connect(&snapshots_, &Snapshots::changed, this, &SnapshotsPanel::refresh);
   connect(&snapshots_, &Snapshots::measured, this, [this] { throttle_.request(); });
   connect(&draft, &Draft::loaded, this, &SnapshotsPanel::refresh);

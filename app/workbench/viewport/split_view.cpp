@@ -15,6 +15,7 @@
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/measure/image_error.h"
 #include "trimtab/measure/machine_watch.h"
+#include "trimtab/measure/statistics.h"
 #include "trimtab/terrain/format/database.h"
 #include "views/controls/scrollable.h"
 #include "views/model/error_run.h"
@@ -30,6 +31,9 @@ constexpr int kMostOfTime = 2;
 constexpr double kQuickMs = 250;
 constexpr int kSmallest = 4;
 constexpr std::size_t kRemembered = 16;
+/// While the view stands, the rules of a preset follow its own image so often: what they change may change
+/// what they know.
+constexpr int kFollowed = 2;
 
 QImage imageOf(const std::vector<std::uint8_t>& rgba, int width, int height) {
   if (rgba.size() != std::size_t(width) * std::size_t(height) * 4) return {};
@@ -37,6 +41,13 @@ QImage imageOf(const std::vector<std::uint8_t>& rgba, int width, int height) {
   return QImage(rgba.data(), width, height, width * 4, QImage::Format_RGBX8888)
       .mirrored()
       .convertToFormat(QImage::Format_RGB32);
+}
+
+/// The preset without the budget, which would have to learn what each of its images costs.
+ValidatedParameters asAsked(const ValidatedParameters& parameters) {
+  TuningParameters asked = *parameters;
+  asked.hold.enabled = false;
+  return validate(asked).value();
 }
 
 }  // namespace
@@ -186,7 +197,7 @@ void SplitView::restart(Side side) {
   chosen.session.reset();
   chosen.recent.clear();
   if (chosen.parameters) {
-    chosen.session = std::make_unique<Session>(*chosen.parameters);
+    chosen.session = std::make_unique<Session>(asAsked(*chosen.parameters));
     chosen.session->setGround(terrain_);
   }
   last_.reset();
@@ -222,6 +233,7 @@ bool SplitView::follow() {
   const bool blurs = frame->shown.levers.drawn.blurStrength > 0;
   const bool rests = same && !blurs && sameImage(frame->shown, last_->shown);
   last_ = std::move(frame);
+  if (!same) followed_ = 0;
   for (Chosen& side : sides_) {
     if (!side.session) continue;
     if (back) {
@@ -324,11 +336,35 @@ void SplitView::compare() {
           shownShrink_ = shrink;
           timed_ = work->timed;
           showWork(*work);
+          if (shrink == 1) giveBack(*work);
           emit compared();
         }
         gapMs_ = std::max(kPeriodMs, int(work->tookMs) * kMostOfTime);
         wake();
       });
+}
+
+/// Gives each preset what its image drew, and what it took if it was timed. The rules follow at the next
+/// state, and while none comes at once.
+void SplitView::giveBack(const Work& work) {
+  const bool follow = followed_ < kFollowed;
+  for (const Side side : {left, right}) {
+    Chosen& chosen = sides_[side];
+    if (!chosen.session || chosen.recent.empty()) continue;
+    FrameResult result = work.sides[side].drawn();
+    result.cost = {};
+    result.cost.total = quantileOf(work.sides[side].ms, 0.5);
+    chosen.session->finished(result, last_->state.time);
+    if (!follow) continue;
+    // The state again, at its own time, so that signals know the image; and an edit, so that levers jump.
+    chosen.session->fly(last_->state);
+    chosen.session->setParameters(chosen.session->parameters());
+    FrameRequest follows = requestOf(*chosen.session);
+    if (sameImage(follows, chosen.recent.back())) continue;
+    chosen.recent.back() = std::move(follows);
+    changed_ = true;
+  }
+  followed_ += changed_;
 }
 
 void SplitView::setBusy(bool busy) {
@@ -357,11 +393,14 @@ void SplitView::showWork(const Work& work) {
   heat_->show(compared.map, work.flip, work.largest);
   fill(work);
   QString text = tr("Measured in %1 at %L2 × %L3 px%4; errors of left and right against the reference. The "
-                        "live view waits while both are drawn.")
+                    "live view waits while both are drawn.")
                      .arg(views::msText(work.tookMs))
                      .arg(work.widthPx)
                      .arg(work.heightPx)
                      .arg(shownShrink_ > 1 ? tr(", smaller while the view moves") : QString());
+  const auto holds = [](const Chosen& side) { return side.parameters && (*side.parameters)->hold.enabled; };
+  if (holds(sides_[left]) || holds(sides_[right]))
+    text += tr(" The budget is off here: presets are drawn as they ask.");
   if (const std::string busy = busyText(work.othersShare); !busy.empty())
     text += QLatin1Char(' ') + QString::fromStdString(busy);
   status_->setText(text);

@@ -31,7 +31,8 @@ namespace trimtab::workbench {
 /// and what each costs. Each preset decides for itself, along the states that were shown while it was on. The
 /// images are drawn on the measuring thread, and only while a person sees them: in this dock, or over the
 /// viewport. While the view moves they may be smaller; once it rests they are as large as the image, and
-/// their times are compared, drawn in turns.
+/// their times are compared, drawn in turns. What an image as large as that drew and took is what the rules
+/// of its preset know next, as in flight. The budget is off: both presets are drawn as they ask.
 class SplitView : public QWidget {
   Q_OBJECT
 
@@ -90,7 +91,7 @@ class SplitView : public QWidget {
   struct Chosen {
     QString name, label;
     std::optional<ValidatedParameters> parameters;  ///< nothing: this side is the reference
-    std::unique_ptr<Session> session;
+    std::unique_ptr<Session> session;               ///< with the budget off
     std::deque<FrameRequest> recent;  ///< requests of the images shown, newest last; a blur mixes them
   };
   struct Work;
@@ -107,6 +108,7 @@ class SplitView : public QWidget {
   void wake();
   void showAge();
   void compare();
+  void giveBack(const Work& work);
   FrameRequest requestOf(Session& side) const;
   void setBusy(bool busy);
   void sayMissing(const Findings& missing);
@@ -119,6 +121,7 @@ class SplitView : public QWidget {
   std::shared_ptr<const terrain::Database> terrain_;
   std::array<Chosen, 2> sides_;
   std::optional<Frame> last_;
+  int followed_ = 0;  ///< how often rules have followed an image of this state
   QTimer timer_;
   QElapsedTimer sinceLast_;
   int gapMs_ = 0;  ///< from the start of one comparison to the start of the next

@@ -211,6 +211,46 @@ TEST_F(Experiment, varyingMotionTurnsAndNodsAndIsRestored) {
   EXPECT_TRUE(seen);
 }
 
+TEST_F(Experiment, aStageDrawsInItsOwnContextWhateverWasDrawnBefore) {
+  const auto one = Stage::open(setup()), other = Stage::open(setup());
+  ASSERT_TRUE(one && other);
+  const std::vector<Place> places = placesOf(setup(), 1);
+  Session session(*validate(setup().parameters));
+  AircraftState state;
+  state.position = places[0].ground;
+  state.position.height = places[0].ground.height + Metres{500};
+  session.look(state);
+  FrameRequest request = *session.request(0, setup().widthPx, setup().heightPx);
+  request.decision.weather.precipitation = Precipitation::rain;
+  request.decision.weather.density = 1;
+  const std::vector<std::uint8_t> image = (*one)->pixels(request);
+  request.decision.weather.density = 0;
+  (*other)->draw(request);
+  EXPECT_EQ((*one)->shown(), image);
+  (*other)->draw(request);
+  EXPECT_EQ((*one)->cutError(request).changed, 0u);
+}
+
+TEST_F(Experiment, bothModesOfTheWeatherAreDrawnInTurns) {
+  const auto report = runWeather(setup());
+  ASSERT_TRUE(report) << toString(report.findings());
+  const Table& rows = report->measured;
+  ASSERT_EQ(rows.rows.size(), 24u);
+  for (std::size_t row = 0; row < 24; ++row) {
+    for (const char* what : {"fps_gain", "frame_ms_ratio"}) {
+      SCOPED_TRACE(std::string(what) + " of row " + std::to_string(row));
+      const double median = rows.number(row, what), low = rows.number(row, std::string(what) + "_low"),
+                   high = rows.number(row, std::string(what) + "_high");
+      EXPECT_GT(low, 0) << "often enough for an interval";
+      EXPECT_TRUE(std::isfinite(high));
+      EXPECT_LE(low, median);
+      EXPECT_LE(median, high);
+    }
+    EXPECT_EQ(rows.text(row, "density") == "clear", rows.text(row, "far_km").empty());
+    EXPECT_EQ(rows.number(row, "far_km_fixed"), 20);
+  }
+}
+
 TEST_F(Experiment, theWeatherProtocolAppliesARatioWhereItWasNotCalibrated) {
   const auto report = runWeatherProtocol(setup());
   ASSERT_TRUE(report) << toString(report.findings());
