@@ -144,6 +144,7 @@ class Loop {
     frameMs_.add(ms);
     lastFrame_ = end;
     if (summary_.frames++ == 0) summary_.firstFrameTime = end;
+    summary_.levers.add(request->levers);
     ++summary_.held[static_cast<std::size_t>(request->hold.reason)];
     summary_.lastRequest = request;
     summary_.depthMapsDrawn = result.counters.depthMapsDrawn;

@@ -13,6 +13,7 @@
 #include "preset_watch.h"
 #include "surface.h"
 #include "trimtab/frame/frame_request.h"
+#include "trimtab/measure/lever_tally.h"
 #include "trimtab/measure/statistics.h"
 #include "trimtab/measure/trace_file.h"
 #include "trimtab/scene/gl_report.h"
@@ -43,6 +44,7 @@ struct Summary {
                 presetsRefused = 0, terrainReloads = 0, terrainsRefused = 0;
   std::uint64_t damagedPlaces = 0;  ///< of the terrain, that were read for an image
   std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, overBudget = 0;
+  LeverTally levers;
   std::array<std::uint64_t, kHoldReasons> held{};  ///< images, by what the arbiter of the budget did
   double firstFrameTime = 0;                       ///< link::now() when the first image was finished; 0: none
   double medianFrameMs = 0, p99FrameMs = 0;

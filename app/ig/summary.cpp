@@ -25,6 +25,30 @@ nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
+/// What was asked for and drawn of each lever, and in how many images each step was the last to change it.
+nlohmann::ordered_json leversJson(const LeverTally& tally) {
+  nlohmann::ordered_json levers;
+  for (std::size_t i = 0; i < kFrameLeverRows.size(); ++i) {
+    nlohmann::ordered_json& lever = levers[std::string(kFrameLeverRows[i].key)];
+    lever = {{"asked_mean", number(tally.askedMean(i))}, {"drawn_mean", number(tally.drawnMean(i))}};
+    for (std::size_t s = 0; s < kLeverSteps; ++s)
+      lever["changed_by"][std::string(toText(static_cast<LeverStep>(s)))] =
+          tally.changedBy(i, static_cast<LeverStep>(s));
+  }
+  return levers;
+}
+
+/// Who changed levers, and in how many frames: "policy allowed error in 120, budget render scale in 30".
+std::string leversText(const LeverTally& tally) {
+  std::string text;
+  for (const LeverStep step : {LeverStep::motion, LeverStep::weather, LeverStep::policy, LeverStep::budget})
+    for (std::size_t i = 0; i < kFrameLeverRows.size(); ++i)
+      if (const std::uint64_t images = tally.changedBy(i, step); images > 0)
+        text += (text.empty() ? "; levers: " : ", ") + std::string(kFrameLeverRows[i].label) + " by " +
+                std::string(toText(step)) + " in " + std::to_string(images) + " frames";
+  return text;
+}
+
 std::uint64_t heldAs(const Summary& s, HoldReason reason) {
   return s.held[static_cast<std::size_t>(reason)];
 }
@@ -78,7 +102,8 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
             " frames; overtaken packets too: " + milliseconds(s.everyP99Ms) + ")";
   if (s.damagedPlaces > 0) text += "; terrain damaged in " + std::to_string(s.damagedPlaces) + " places";
   return text + "; frame median " + milliseconds(s.medianFrameMs) + ", p99 " + milliseconds(s.p99FrameMs) +
-         ", " + std::to_string(s.overBudget) + " over budget" + heldText(s);
+         ", " + std::to_string(s.overBudget) + " over budget" + heldText(s) +
+         leversText(s.levers);
 }
 
 std::string summaryJson(const Summary& s, const Feed& feed, const Options& options,
@@ -92,6 +117,7 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
   json["horizons_built"] = s.horizonsBuilt;
   json["over_budget"] = s.overBudget;
   for (std::size_t i = 0; i < kHoldReasons; ++i) json["hold"][toText(static_cast<HoldReason>(i))] = s.held[i];
+  json["levers"] = leversJson(s.levers);
   json["preset_reloads"] = s.presetReloads;
   json["terrain_reloads"] = s.terrainReloads;
   json["terrains_refused"] = s.terrainsRefused;

@@ -1,5 +1,7 @@
 #include "trimtab/frame/frame_levers.h"
 
+#include "trimtab/units/number.h"
+
 namespace trimtab {
 namespace {
 
@@ -65,6 +67,29 @@ LeverStep lastChange(const LeverChain& chain, const FrameLeverRow& row) {
     if (valueOf(chain.after(step), row) != valueOf(chain.after(before), row)) return step;
   }
   return LeverStep::preset;
+}
+
+std::string valueText(const FrameLevers& levers, const FrameLeverRow& row) {
+  if (row.value == nullptr)
+    return levers.occlusion ? std::to_string(levers.occlusion->widthPx) + " x " +
+                                  std::to_string(levers.occlusion->heightPx) + " px"
+                            : "none";
+  const double value = levers.*row.value;
+  if (value == WeatherDecision::kUnlimited) return "unlimited";
+  std::string text = numberText(value, 3);
+  if (!row.unit.empty()) text += ' ' + std::string(row.unit);
+  return text;
+}
+
+std::string explain(const LeverChain& chain, const FrameLeverRow& row) {
+  std::string text;
+  for (std::size_t i = 0; i < kLeverSteps; ++i) {
+    const auto step = static_cast<LeverStep>(i);
+    const FrameLevers& now = chain.after(step);
+    if (i > 0 && valueOf(now, row) == valueOf(chain.after(static_cast<LeverStep>(i - 1)), row)) continue;
+    text += (i > 0 ? ", " : "") + std::string(toText(step)) + ' ' + valueText(now, row);
+  }
+  return text;
 }
 
 std::string_view toText(LeverStep step) {

@@ -27,6 +27,14 @@ struct FlatPolicy {
   std::optional<std::uint32_t> movingBefore, moved, unknownAsked;
 };
 
+/// The eye of an image that is decided between two states. Its cells are empty otherwise.
+struct FlatEye {
+  std::optional<double> timeS;
+  std::optional<Degrees> latitude, longitude;
+  std::optional<Metres> height;
+  std::optional<Degrees> pitch, roll, heading, headPitch, headRoll, headHeading;
+};
+
 /// A row as a flat list of cells. Groups that may be absent as a whole have a flag that their first cell
 /// decides.
 struct Flat {
@@ -42,6 +50,7 @@ struct Flat {
   std::optional<int> depthMapWidth, depthMapHeight;
   std::array<std::optional<double>, 4> formerFiring;
   FlatPolicy policy;
+  FlatEye drawnEye;
   TraceFrame frame;
   bool hasFrame = false;
   HoldRecord hold;
@@ -170,6 +179,21 @@ void forEachHoldColumn(Record& hold, const Visit& visit) {
   visit("hold_band_ms", Cell::hold, d.bandMs);
 }
 
+/// The eye of an image that is decided between two states.
+template <class Eye, class Visit>
+void forEachDrawnEye(Eye& eye, const Visit& visit) {
+  visit("drawn_time_s", Cell::optional, eye.timeS);
+  visit("drawn_latitude_deg", Cell::optional, eye.latitude);
+  visit("drawn_longitude_deg", Cell::optional, eye.longitude);
+  visit("drawn_height_m", Cell::optional, eye.height);
+  visit("drawn_pitch_deg", Cell::optional, eye.pitch);
+  visit("drawn_roll_deg", Cell::optional, eye.roll);
+  visit("drawn_heading_deg", Cell::optional, eye.heading);
+  visit("drawn_head_pitch_deg", Cell::optional, eye.headPitch);
+  visit("drawn_head_roll_deg", Cell::optional, eye.headRoll);
+  visit("drawn_head_heading_deg", Cell::optional, eye.headHeading);
+}
+
 /// Calls `visit(name, cell, value)` for each column in the file's order: the one list that header, writer
 /// and reader share.
 template <class F, class Visit>
@@ -209,6 +233,7 @@ void forEachColumn(F& f, const Visit& visit) {
   for (const CostStage& stage : kCostStages) visit(stage.lastColumn, Cell::optional, last.*stage.ms);
   visit("drawn_fps", Cell::optional, f.row.input.drawn.framesPerS);
   visit("drawn_vertices", Cell::optional, f.row.input.drawn.vertices);
+  forEachDrawnEye(f.drawnEye, visit);
   forEachPolicyInput(f.policy, visit);
 
   auto& d = f.row.decision;
@@ -277,9 +302,40 @@ inline void unflattenPolicy(const FlatPolicy& p, TraceRow& row) {
   set.unknownAsked = p.unknownAsked.value_or(0);
 }
 
+inline FlatEye flattenEye(const DrawnEye& eye) {
+  FlatEye f{eye.timeS,
+            eye.position.latitude,
+            eye.position.longitude,
+            eye.position.height,
+            eye.attitude.pitch,
+            eye.attitude.roll,
+            eye.attitude.heading,
+            {},
+            {},
+            {}};
+  if (eye.head) {
+    f.headPitch = eye.head->pitch;
+    f.headRoll = eye.head->roll;
+    f.headHeading = eye.head->heading;
+  }
+  return f;
+}
+
+inline std::optional<DrawnEye> unflattenEye(const FlatEye& f) {
+  if (!f.timeS) return std::nullopt;
+  DrawnEye eye{*f.timeS, {}, {}, {}};
+  eye.position = {f.latitude.value_or(Degrees{}), f.longitude.value_or(Degrees{}),
+                  f.height.value_or(Metres{})};
+  eye.attitude = {f.heading.value_or(Degrees{}), f.pitch.value_or(Degrees{}), f.roll.value_or(Degrees{})};
+  if (f.headHeading)
+    eye.head = Attitude{*f.headHeading, f.headPitch.value_or(Degrees{}), f.headRoll.value_or(Degrees{})};
+  return eye;
+}
+
 inline Flat flatten(const TraceRow& row) {
   Flat f;
   f.row = row;
+  if (row.input.drawn.eye) f.drawnEye = flattenEye(*row.input.drawn.eye);
   f.policy = flattenPolicy(row);
   const AircraftState& state = row.input.state;
   f.height = state.position.height;
@@ -313,6 +369,7 @@ inline Flat flatten(const TraceRow& row) {
 }
 
 inline TraceRow unflatten(Flat& f) {
+  f.row.input.drawn.eye = unflattenEye(f.drawnEye);
   AircraftState& state = f.row.input.state;
   state.position.height = f.height;
   state.aboveGround = f.row.input.aboveGround;

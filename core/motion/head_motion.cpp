@@ -17,9 +17,10 @@ struct Direction {
   double headingDeg = 0, pitchDeg = 0;
 };
 
-Direction directionOf(const AircraftState& state, MotionReference reference) {
-  const Attitude a = reference == MotionReference::head ? state.head.value_or(Attitude{})
-                                                        : lineOfSight(state.attitude, state.head);
+Direction directionOf(const Attitude& aircraft, const std::optional<Attitude>& head,
+                      MotionReference reference) {
+  const Attitude a =
+      reference == MotionReference::head ? head.value_or(Attitude{}) : lineOfSight(aircraft, head);
   return {a.heading.value(), a.pitch.value()};
 }
 
@@ -117,14 +118,16 @@ MotionReason slowFrame(const MotionParameters& p, double ms, double changeDeg, M
 
 MotionReason nextFrame(const AircraftState& state, const MotionParameters& p, MotionMemory& memory,
                        const DrawnLoad& drawn, MotionDecision& decision) {
-  const Direction now = directionOf(state, p.reference);
-  if (!std::isfinite(state.time) || !std::isfinite(now.headingDeg) || !std::isfinite(now.pitchDeg))
+  const double timeS = drawn.eye ? drawn.eye->timeS : state.time;
+  const Direction now = drawn.eye ? directionOf(drawn.eye->attitude, drawn.eye->head, p.reference)
+                                  : directionOf(state.attitude, state.head, p.reference);
+  if (!std::isfinite(timeS) || !std::isfinite(now.headingDeg) || !std::isfinite(now.pitchDeg))
     return MotionReason::invalid_input;
-  const double seconds = state.time - memory.timeS;
+  const double seconds = timeS - memory.timeS;
   if (!memory.known || seconds < 0) {
     const bool first = !memory.known;
     memory = {};
-    remember(memory, state.time, now);
+    remember(memory, timeS, now);
     return first ? MotionReason::first_frame : MotionReason::time_back;
   }
   if (seconds == 0) return MotionReason::same_time;
@@ -133,7 +136,7 @@ MotionReason nextFrame(const AircraftState& state, const MotionParameters& p, Mo
   const bool blurred = memory.blurRemainingMs > 0;
   memory.blurRemainingMs = memory.blurRemainingMs > ms + kTimeSlackMs ? memory.blurRemainingMs - ms : 0;
   const double change = changeBetween(memory, now);
-  remember(memory, state.time, now);
+  remember(memory, timeS, now);
   if (ms > p.gap.value() + kTimeSlackMs) {
     memory.blurStack = memory.restoreStack = {};
     return MotionReason::gap;

@@ -27,8 +27,10 @@ const LeverValues& LeverDrive::follow(double time, const LeverValues& targets, c
   for (std::size_t l = 0; l < kLevers; ++l) {
     const LeverRow& row = kLeverRows[l];
     const std::uint32_t bit = 1u << l;
-    const double wanted = std::isnan(targets.value[l]) ? neutral.value[l] : targets.value[l];
-    const double target = std::clamp(wanted, row.hard.low, row.hard.high);
+    // The preset may ask for what rules may not.
+    const double target = std::isnan(targets.value[l])
+                              ? neutral.value[l]
+                              : std::clamp(targets.value[l], row.hard.low, row.hard.high);
     double& value = s.values.value[l];
     if (!s.begun) {
       value = target;

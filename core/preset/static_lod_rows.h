@@ -32,7 +32,7 @@ inline constexpr std::array kStaticLodRows{
          .source = "E: minimum viewer distance"}),
     row<&TuningParameters::staticLod, &StaticLodParameters::errorPx>(
         {.key = "static_lod.error_px",
-         .label = "Allowed error",
+         .label = "Allowed error of static trees",
          .help = "A node is drawn where its error is at most so much in the picture; nearer, its children "
                  "are. Smaller is finer and slower.",
          .source = "E: minimum viewer distance",

@@ -35,9 +35,10 @@ inline constexpr std::array kViewRows{
          .source = "A: view-frustum and back-face culling together"}),
     row<&TuningParameters::lod, &LodParameters::screenSpaceError>(
         {.key = "lod.screen_space_error_px",
-         .label = "Screen-space error",
-         .help = "How far a drawn surface may lie from the finest one, seen on the screen. Smaller is finer "
-                 "and slower.",
+         .label = "Allowed error",
+         .help =
+             "Screen-space error: how far a drawn surface may lie from the finest one, seen on the screen. "
+             "Smaller is finer and slower.",
          .hard = {0.05, 256},
          .usual = {0.25, 32},
          .step = 0.25,
@@ -46,7 +47,7 @@ inline constexpr std::array kViewRows{
     row<&TuningParameters::lod, &LodParameters::scale>(
         {.key = "lod.scale",
          .label = "LOD scale",
-         .help = "Multiplies the screen-space error: 1 is full detail, larger is coarser.",
+         .help = "Multiplies the allowed error: 1 is full detail, larger is coarser.",
          .source = "C: LOD scale controller",
          .hard = {0.05, 100},
          .usual = {0.25, 16},

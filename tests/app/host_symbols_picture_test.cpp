@@ -56,7 +56,7 @@ class HostSymbolsPicture : public SceneTest {
   }
   std::vector<std::uint8_t> drawn() {
     FrameRequest request = *session_.request(link::now(), kWidth, kHeight);
-    request.decision.motion.blur = {};
+    request.levers.drawn.blurStrength = 0;
     return picture(request, &result_);
   }
   static std::array<int, 3> pixel(const std::vector<std::uint8_t>& p, int x, int y) {

@@ -56,8 +56,8 @@ TEST_F(IgHead, sweepsOverAFlightAndReplaysToTheBit) {
     const double heading = row.input.state.head->heading.value();
     // The same direction, on the way there and at rest after it.
     if (heading < 89.5) continue;
-    if (row.decision.lodScale == 1) finest = std::max(finest, row.frame->counts.triangles);
-    if (row.decision.lodScale == 4) coarsest = std::min(coarsest, row.frame->counts.triangles);
+    if (row.decision.motion.lodScale == 1) finest = std::max(finest, row.frame->counts.triangles);
+    if (row.decision.motion.lodScale == 4) coarsest = std::min(coarsest, row.frame->counts.triangles);
   }
   EXPECT_EQ(lowered, 2);
   EXPECT_EQ(raised, 2);

@@ -97,7 +97,7 @@ class ParameterEffects : public test::SceneTest {
     for (const AircraftState& state : packets(over(0.5, 0.2, 0))) {
       session.fly(state);
       seen["decision " + std::to_string(i)] = explain(session.decision(), parameters) +
-                                              std::to_string(session.decision().lodScale) +
+                                              std::to_string(session.levers().drawn.lodScale) +
                                               std::to_string(session.decision().motion.blur.strength) +
                                               std::to_string(session.decision().motion.blur.remainingMs);
       if (i % 18 == 11) {
@@ -216,7 +216,7 @@ class ParameterEffects : public test::SceneTest {
       const FrameRequest request = *session.request(state.time, 640, 360);
       seen["hold " + std::to_string(i)] = explain(request.hold);
       FrameResult result;
-      result.visible.triangles = static_cast<std::uint64_t>(12e4 / request.lod.screenSpaceError.value());
+      result.visible.triangles = static_cast<std::uint64_t>(12e4 / request.levers.drawn.errorPx);
       result.cost = {0, 1, 1, 1, 20, 0, 23};  // the clock is no effect
       session.finished(result, state.time);
     }
@@ -432,7 +432,7 @@ TEST_F(ParameterEffects, everyWayToHiddenGroundDoesWorkOfItsOwn) {
     auto work = workOf(result);
     session.fly(packets(over(0.5, 0.5, 0)).front());
     FrameRequest low = *session.request(0, 192, 108);
-    ASSERT_TRUE(low.decision.occlusionResolution);
+    ASSERT_TRUE(low.levers.drawn.occlusion);
     low.eye = over(0.5, 0.5, 60);
     low.attitude = {Degrees{40}, Degrees{-3}, Degrees{0}};
     low.waitForPages = low.reproducible = true;

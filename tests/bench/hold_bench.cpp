@@ -78,7 +78,8 @@ double firstAtTwiceTheError(const std::shared_ptr<const terrain::Database>& terr
     if (ahead) bench.renderer().buildAhead(flight.session().nodesAhead(request), kAheadMs);
   }
   FrameRequest coarser = flight.next();
-  setAllowedError(coarser, 2 * coarser.lod.screenSpaceError.value());
+  coarser.levers.drawn.errorPx *= 2;
+  coarser.levers.drawn.treeErrorPx *= 2;
   return flight.draw(coarser).cost.total;
 }
 

@@ -115,7 +115,7 @@ FrameRequest withSymbols(FrameRequest r, double speedKt) {
 void passes(Report& report, BenchScene& bench) {
   const int frames = report.quick() ? 15 : 60;
   auto r = bench.request();
-  r.decision.motion.blur.strength = 0.8;
+  r.levers.drawn.blurStrength = 0.8;
   r.separateStages = true;
   // A head that turns: the blurred frame as it is, and blur's part in it.
   std::vector<double> blur, frame, symbols, standing;

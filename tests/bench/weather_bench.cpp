@@ -107,6 +107,7 @@ void frames(Report& report, BenchScene& bench) {
       r.time = 10 + i / 60.0;
       r.eye.height = r.eye.height + Metres{0.01 * i};
       r.decision.weather = weather;
+      r.levers.drawn.farM = r.decision.weather.farM;
       r.precipitationForm = PrecipitationForm::effect;
       return bench.ms(r);
     };
@@ -176,6 +177,7 @@ void bounded(Report& report) {
       r.time = 10 + i / 60.0;
       r.waitForPages = true;
       r.decision.weather = weather;
+      r.levers.drawn.farM = r.decision.weather.farM;
       r.precipitationForm = form;
       return bench.ms(r);
     };

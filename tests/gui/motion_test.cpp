@@ -144,8 +144,8 @@ TEST_F(Motion, theDockBudgetSaysWhatHeldTheFrameAndWhatEachLeverGave) {
   budget.modeChoice().setCurrentText(QStringLiteral("with the budget held"));
   budget.replayButton().click();
   EXPECT_TRUE(w().draft().parameters().hold.enabled);
-  const auto gave = [&](int row) { return QLocale().toDouble(budget.levers().item(row, 2)->text()); };
-  EXPECT_TRUE(waitFor([&] { return gave(0) + gave(1) > 0; })) << budget.stateText().toStdString();
+  const auto gave = [&](int row) { return QLocale().toDouble(budget.levers().item(row, 3)->text()); };
+  EXPECT_TRUE(waitFor([&] { return gave(0) + gave(4) > 0; })) << budget.stateText().toStdString();
   EXPECT_TRUE(waitFor([&] { return budget.residualsText().contains(QLatin1String("Three images")); }));
   EXPECT_GT(budget.reasons().count(), 0);
   QTest::qWait(1000);

@@ -19,7 +19,7 @@ class PolicyDock : public Bench {
   views::PolicyPanel& panel() { return *w().panels().policy; }
   const views::PolicyPanel::Parts& parts() { return panel().parts(); }
   double lever(Lever which) { return session().decision().policy[which]; }
-  double requestedErrorPx() { return w().controllers().frame->shown()->lod.screenSpaceError.value(); }
+  double requestedErrorPx() { return w().controllers().frame->shown()->levers.drawn.errorPx; }
   void setPolicy(const std::vector<std::string>& terms, const std::vector<std::string>& rules) {
     test::setPolicy(w().draft(), terms, rules);
     ASSERT_FALSE(w().draft().isBroken()) << toString(w().draft().findings());

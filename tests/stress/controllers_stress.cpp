@@ -168,7 +168,7 @@ TEST(ControllerStress, constantInputSettles) {
       in.state.attitude = {wrapped360(Degrees{rate * i / 60.0}), Degrees{altitude / 200 - 30}, Degrees{0}};
       const FrameDecision d = decide(in, *parameters, memory);
       if (i > 2500) {
-        level.require(d.motion.level == last->motion.level && d.lodScale == last->lodScale,
+        level.require(d.motion.level == last->motion.level && d.motion.lodScale == last->motion.lodScale,
                       [&] { return "rate " + digits(rate) + " against " + digits(limit); });
         scheme.require(d.band == last->band && d.scheme == last->scheme && d.weather == last->weather);
       }

@@ -41,7 +41,7 @@ bool isPlace(const AircraftState& s) {
 
 bool isDecided(const FrameDecision& d) {
   const WeatherDecision& w = d.weather;
-  return std::isfinite(d.altitudeFt + d.pitchDeg + d.lodScale + d.motion.rateDegPerS +
+  return std::isfinite(d.altitudeFt + d.pitchDeg + d.motion.lodScale + d.motion.rateDegPerS +
                        d.motion.blur.remainingMs) &&
          d.altitudeMembership >= 0 && d.altitudeMembership <= 1 && d.pitchMembership >= 0 &&
          d.pitchMembership <= 1 && d.totalMembership >= 0 && d.totalMembership <= 2 &&

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QCheckBox>
 #include <QComboBox>
+#include <QLayout>
 #include <QListWidget>
 #include <QPushButton>
 #include <QTableWidget>
@@ -27,6 +29,10 @@ LiveFrame frameAt(double time, HoldReason reason, double heldPx) {
   frame.hold.held = {heldPx, 0.8, 1, 1};
   frame.hold.heldMs = {12, 2, 0, 0.5};
   frame.hold.askedMs = {20, 4, 0, 0.5};
+  LeverChain& levers = frame.levers.emplace();
+  for (FrameLevers* step : {&levers.preset, &levers.motion, &levers.weather, &levers.policy, &levers.drawn})
+    step->errorPx = 1;
+  levers.drawn = withBudget(levers.policy, frame.hold.held);
   frame.hold.limitMs = 15.4;
   frame.hold.bandMs = 1.5;
   frame.holdGains.error = {6, 0.0041};
@@ -59,10 +65,13 @@ TEST_F(BudgetPanelTest, showsWhatEachLeverGives) {
   panel.showFrame(frameAt(1, HoldReason::lowered, 4));
   panel.show();
   settle();
-  EXPECT_EQ(panel.levers().item(0, 0)->text(), "1");
-  EXPECT_EQ(panel.levers().item(0, 1)->text(), "4");
-  EXPECT_EQ(panel.levers().item(1, 1)->text(), "0.8");
-  EXPECT_EQ(panel.levers().item(2, 2)->text(), "nothing");
+  EXPECT_EQ(panel.levers().verticalHeaderItem(0)->text(), "Allowed error");
+  EXPECT_EQ(panel.levers().item(0, 0)->text(), "1 px");
+  EXPECT_EQ(panel.levers().item(0, 1)->text(), "preset");
+  EXPECT_EQ(panel.levers().item(0, 2)->text(), "4 px");
+  EXPECT_EQ(panel.levers().item(0, 0)->toolTip(), "preset 1 px, budget 4 px");
+  EXPECT_EQ(panel.levers().item(4, 2)->text(), "0.8");
+  EXPECT_EQ(panel.levers().item(1, 3)->text(), "") << "the budget leaves the LOD scale alone";
   EXPECT_TRUE(panel.stateText().startsWith("Lowered")) << panel.stateText().toStdString();
 }
 
@@ -70,15 +79,27 @@ TEST_F(BudgetPanelTest, saysHowManyMillisecondsEachLeverTakesOff) {
   panel.showFrame(frameAt(1, HoldReason::lowered, 4));
   panel.show();
   settle();
-  EXPECT_EQ(panel.levers().item(0, 2)->text(), "6");
-  EXPECT_EQ(panel.levers().item(1, 2)->text(), "3.96");
-  EXPECT_EQ(panel.levers().item(1, 3)->text(), "0.0105");
-  EXPECT_EQ(panel.levers().item(3, 2)->text(), "nothing");
+  EXPECT_EQ(panel.levers().item(0, 3)->text(), "6");
+  EXPECT_EQ(panel.levers().item(4, 3)->text(), "3.96");
+  EXPECT_EQ(panel.levers().item(4, 4)->text(), "0.0105");
+  EXPECT_EQ(panel.levers().item(6, 3)->text(), "");
   ASSERT_EQ(panel.reasons().count(), 1);
   const QString change = panel.reasons().item(0)->text();
   EXPECT_TRUE(change.contains("allowed error takes off 6 ms, render scale takes off 4 ms"))
       << change.toStdString();
   EXPECT_FALSE(change.contains("blur takes")) << change.toStdString();
+}
+
+TEST_F(BudgetPanelTest, beginsWithItsSwitchAndSaysWhereTheLimitComesFrom) {
+  draft.setValues({{"hold.enabled", true}, {"measure.budget_ms", 16.7}, {"hold.margin", 0.08}}, "budget");
+  LiveFrame frame = frameAt(1, HoldReason::lowered, 4);
+  frame.hold.limitMs = 12.5;
+  panel.showFrame(frame);
+  panel.show();
+  settle();
+  EXPECT_EQ(panel.limitText(), "16.7 ms budget − 1.34 ms margin − 2.86 ms caution = 12.5 ms for predictions");
+  const QWidget* const first = panel.layout()->itemAt(0)->widget();
+  EXPECT_NE(first->findChild<QCheckBox*>(), nullptr) << "the switch comes first";
 }
 
 TEST_F(BudgetPanelTest, stacksPredictedAndMeasuredStagesOnOneScaleAndShowsHowFarOffTheyWere) {

@@ -37,7 +37,7 @@ TEST(BudgetMinute, theWorstStageIsThatOfTheImagesOverTheBudget) {
   EXPECT_EQ(minute.worstStage(16)->name, "weather");
   EXPECT_DOUBLE_EQ(minute.worstStage(16)->ms, 30);
   EXPECT_EQ(minute.worstStage(100)->name, "drawing") << "none is over: all count";
-  EXPECT_EQ(minute.help(16, {})->lever, "particle density");
+  EXPECT_EQ(minute.help(16, {})->lever, Lever::particle_density);
   EXPECT_TRUE(std::isnan(minute.help(16, {})->ms));
 }
 
@@ -48,12 +48,15 @@ TEST(BudgetMinute, knownCostsNameTheLeverThatSavesMost) {
   triangles.known = true;
   triangles.perTriangle = 1e-5;
   triangles.perGroundMpx = 2;
-  EXPECT_EQ(minute.help(16, triangles)->lever, "allowed error");
+  EXPECT_EQ(minute.help(16, triangles)->lever, Lever::screen_space_error);
   EXPECT_NEAR(minute.help(16, triangles)->ms, 5, 1e-9);
   CostCoefficients pixels = triangles;
   pixels.perGroundMpx = 17;
-  EXPECT_EQ(minute.help(16, pixels)->lever, "render scale");
+  EXPECT_EQ(minute.help(16, pixels)->lever, Lever::render_scale);
   EXPECT_NEAR(minute.help(16, pixels)->ms, 8.5, 1e-9);
+  EXPECT_EQ(minute.help(16, pixels, 1u << indexOf(Lever::render_scale))->lever, Lever::screen_space_error)
+      << "what is spent helps no more";
+  EXPECT_FALSE(minute.help(16, {}, 1u << indexOf(Lever::screen_space_error)));
 }
 
 TEST(BudgetMinute, noLeverSavesMoreThanTheImageTookForIt) {
@@ -66,8 +69,31 @@ TEST(BudgetMinute, noLeverSavesMoreThanTheImageTookForIt) {
   overrated.known = true;
   overrated.perBlurMpx = 5;
   overrated.perTriangle = 1e-3;
-  EXPECT_EQ(minute.help(16, overrated)->lever, "blur strength");
+  EXPECT_EQ(minute.help(16, overrated)->lever, Lever::blur_strength);
   EXPECT_DOUBLE_EQ(minute.help(16, overrated)->ms, 3) << "not 5";
+}
+
+TEST(BudgetStrip, aClickOpensTheKnobThatItNamesAndNoneThatIsAtItsCap) {
+  Draft draft;
+  draft.setValues({{"hold.enabled", true}, {"hold.error_maximum_px", 16.0}}, "budget");
+  BudgetStrip strip(draft);
+  strip.show();
+  QStringList asked;
+  QObject::connect(&strip, &BudgetStrip::knobAsked, &strip, [&](const QString& key) { asked << key; });
+  LiveFrame frame;
+  frame.newImage = true;
+  frame.cost = costOf(20);
+  frame.levers.emplace();
+  strip.showFrame(frame, 1);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return strip.text().contains("most help: allowed error"); }, 5000));
+  QTest::mouseClick(&strip, Qt::LeftButton);
+  EXPECT_EQ(asked, QStringList{"lod.screen_space_error_px"});
+  frame.levers->drawn.errorPx = 16;
+  strip.showFrame(frame, 1);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return !strip.text().contains("most help"); }, 5000))
+      << strip.text().toStdString();
+  QTest::mouseClick(&strip, Qt::LeftButton);
+  EXPECT_EQ(asked.size(), 1);
 }
 
 TEST(BudgetStrip, saysHowMuchOfTheMinuteIsOverWhereAndWhatHelps) {

@@ -107,7 +107,7 @@ TEST(TraceBuffer, csvHoldsExactlyTheFramesOfTheRange) {
     frame.result = std::make_shared<const FrameResult>(result);
     frame.cost.symbology = 0.25;
     frame.decision.motion.rateDegPerS = 75.5;
-    frame.decision.lodScale = 2;
+    frame.levers.emplace().drawn.lodScale = 2;
     buffer.append(frame);
   }
   std::istringstream lines(buffer.csv(2.05, 3.0));
@@ -213,23 +213,29 @@ TEST(TraceBuffer, recordsTheLeversAsDrawnWhatTheArbiterPredictedAndWhatWasMeasur
   TraceBuffer buffer(128);
   buffer.append(frameAt(0, 10));
   LiveFrame frame = frameAt(1, 10);
-  frame.levers = {2.5, 0.75, 0.4, 0.3, 12'500};
+  FrameLevers& levers = frame.levers.emplace().drawn;
+  levers.errorPx = 2.5;
+  levers.renderScale = 0.75;
+  levers.particleShare = 0.8;
+  levers.blurStrength = 0.3;
+  levers.farM = 12'500;
+  frame.decision.weather.density = 0.5;
   frame.hold.limitMs = 15;
   frame.hold.heldMs = {9, 3, 1, 0.5};
   frame.hold.askedMs = {20, 4, 1, 0.5};
   frame.flip = 0.0625;
   buffer.append(frame);
-  frame.levers.farM = std::numeric_limits<double>::infinity();
+  levers.farM = std::numeric_limits<double>::infinity();
   frame.hold.limitMs = 0;
   frame.time = 2;
   buffer.append(frame);
-  const Trace levers[]{Trace::allowed_error_px, Trace::render_scale, Trace::particle_density,
+  const Trace traces[]{Trace::allowed_error_px, Trace::render_scale, Trace::particle_density,
                        Trace::blur_strength,    Trace::far_km,       Trace::predicted_ms,
                        Trace::as_asked_ms,      Trace::flip};
   const float expected[]{2.5f, 0.75f, 0.4f, 0.3f, 12.5f, 13.5f, 25.5f, 0.0625f};
-  for (std::size_t i = 0; i < std::size(levers); ++i) {
-    EXPECT_TRUE(std::isnan(buffer.value(levers[i], 0))) << traceName(levers[i]) << " before the first image";
-    EXPECT_EQ(buffer.value(levers[i], 1), expected[i]) << traceName(levers[i]);
+  for (std::size_t i = 0; i < std::size(traces); ++i) {
+    EXPECT_TRUE(std::isnan(buffer.value(traces[i], 0))) << traceName(traces[i]) << " before the first image";
+    EXPECT_EQ(buffer.value(traces[i], 1), expected[i]) << traceName(traces[i]);
   }
   EXPECT_TRUE(std::isnan(buffer.value(Trace::far_km, 2))) << "no cut";
   EXPECT_TRUE(std::isnan(buffer.value(Trace::predicted_ms, 2))) << "no budget";

@@ -74,34 +74,39 @@ std::optional<BudgetMinute::Stage> BudgetMinute::worstStage(double budgetMs) con
   return Stage{tr(kNames[worst - sum.begin()]), *worst / double(count)};
 }
 
-std::optional<BudgetMinute::Help> BudgetMinute::help(double budgetMs, const CostCoefficients& cost) const {
+std::optional<BudgetMinute::Help> BudgetMinute::help(double budgetMs, const CostCoefficients& cost,
+                                                     Spent spent) const {
   const std::optional<Stage> worst = worstStage(budgetMs);
   if (!worst) return std::nullopt;
+  const auto isSpent = [spent](Lever lever) { return (spent >> indexOf(lever) & 1) != 0; };
   if (cost.known) {
     const FrameCost& last = images_.back().cost;
     const StageTimes now = predict(cost, load_);
-    const auto saves = [&](void (*change)(FrameLoad&)) {
+    const auto saves = [&](Lever lever, void (*change)(FrameLoad&)) {
+      if (isSpent(lever)) return Help{lever, 0};
       FrameLoad less = load_;
       change(less);
       const StageTimes then = predict(cost, less);
-      return atMost(stagesOf(last).ground, now.ground - then.ground) +
-             atMost(last.weather, now.weather - then.weather) + atMost(last.blur, now.blur - then.blur) +
-             now.other - then.other;
+      return Help{lever, atMost(stagesOf(last).ground, now.ground - then.ground) +
+                             atMost(last.weather, now.weather - then.weather) +
+                             atMost(last.blur, now.blur - then.blur) + now.other - then.other};
     };
     const std::array<Help, 4> helps{
-        Help{tr("allowed error"), saves([](FrameLoad& l) { l.triangles /= 2; })},
-        Help{tr("render scale"), saves([](FrameLoad& l) { l.groundMpx /= 2, l.sceneMpx /= 2; })},
-        Help{tr("particle density"), saves([](FrameLoad& l) { l.particles /= 2; })},
-        Help{tr("blur strength"), saves([](FrameLoad& l) { l.blurs = false; })}};
+        saves(Lever::screen_space_error, [](FrameLoad& l) { l.triangles /= 2; }),
+        saves(Lever::render_scale, [](FrameLoad& l) { l.groundMpx /= 2, l.sceneMpx /= 2; }),
+        saves(Lever::particle_density, [](FrameLoad& l) { l.particles /= 2; }),
+        saves(Lever::blur_strength, [](FrameLoad& l) { l.blurs = false; })};
     const auto best = std::max_element(helps.begin(), helps.end(),
                                        [](const Help& a, const Help& b) { return a.ms < b.ms; });
     if (best->ms >= kLeastMs) return *best;
   }
-  if (worst->name == tr(kNames[weather])) return Help{tr("particle density"), kNan};
-  if (worst->name == tr(kNames[blur])) return Help{tr("blur strength"), kNan};
-  if (worst->name == tr(kNames[occlusion])) return Help{tr("occlusion"), kNan};
   if (worst->name == tr(kNames[decide]) || worst->name == tr(kNames[symbology])) return std::nullopt;
-  return Help{tr("allowed error"), kNan};
+  const Lever lever = worst->name == tr(kNames[weather])     ? Lever::particle_density
+                      : worst->name == tr(kNames[blur])      ? Lever::blur_strength
+                      : worst->name == tr(kNames[occlusion]) ? Lever::occlusion
+                                                             : Lever::screen_space_error;
+  if (isSpent(lever)) return std::nullopt;
+  return Help{lever, kNan};
 }
 
 }  // namespace trimtab::views

@@ -24,9 +24,11 @@ class BudgetMinute {
   /// A lever, and about how much half of what it scales would save: of each stage at most what the last image
   /// took for it. NaN: the machine's costs are not known.
   struct Help {
-    QString lever;
+    Lever lever;
     double ms = 0;
   };
+  /// Levers that have nothing left to give, by bit as PolicyOutcome::moved.
+  using Spent = std::uint32_t;
 
   /// Adds an image. `timeS` is on a clock that never goes back; what is older than a minute is dropped.
   void add(double timeS, const FrameCost& cost, const FrameLoad& load);
@@ -36,9 +38,9 @@ class BudgetMinute {
   /// The stage that takes longest in the images over the budget, or in all images if none is over. Unset
   /// without a measured stage.
   std::optional<Stage> worstStage(double budgetMs) const;
-  /// The lever that saves most of the last image. With known costs by prediction, else by the worst stage.
-  /// Unset if no lever changes what takes longest.
-  std::optional<Help> help(double budgetMs, const CostCoefficients& cost) const;
+  /// The lever that saves most of the last image, of those that are not spent. With known costs by
+  /// prediction, else by the worst stage. Unset if no such lever changes what takes longest.
+  std::optional<Help> help(double budgetMs, const CostCoefficients& cost, Spent spent = 0) const;
 
  private:
   struct Image {

@@ -53,7 +53,7 @@ constexpr std::array kSignals{
     PlotSignal{Trace::render_scale, "render scale", "", 1, 2},
     PlotSignal{Trace::particle_density, "particle density", "", 1, 2},
     PlotSignal{Trace::blur_strength, "blur strength", "", 1, 2},
-    PlotSignal{Trace::far_km, "far cut", "km", 1, 1, true},
+    PlotSignal{Trace::far_km, "far distance", "km", 1, 1, true},
     PlotSignal{Trace::predicted_ms, "predicted", "ms", 1, 2, true},
     PlotSignal{Trace::as_asked_ms, "predicted as asked", "ms", 1, 2, true},
     PlotSignal{Trace::flip, "FLIP", "", 1, 4, true},

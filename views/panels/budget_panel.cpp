@@ -11,7 +11,9 @@
 #include <cmath>
 
 #include "trimtab/measure/paired_ratio.h"
+#include "views/controls/fold.h"
 #include "views/controls/parameter_lines.h"
+#include "views/model/error_run.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
 #include "views/plots/budget_plot.h"
@@ -19,21 +21,13 @@
 namespace trimtab::views {
 namespace {
 
-constexpr const char* kBudgetKeys[] = {
-    "hold.enabled",
-    "measure.budget_ms",
-    "hold.margin",
-    "hold.error_maximum_px",
-    "hold.render_scale_minimum",
-    "hold.particles_minimum",
-    "hold.blur_minimum",
-    "hold.calm_ms",
-    "hold.caution",
-    "hold.loss_error",
-    "hold.loss_render_scale",
-    "hold.loss_particles",
-    "hold.loss_blur",
-};
+/// What everybody sets, and what is for who tunes the arbiter itself.
+constexpr const char* kSwitchKeys[] = {"hold.enabled", "measure.budget_ms"};
+constexpr const char* kLimitKeys[] = {"hold.error_maximum_px", "hold.render_scale_minimum",
+                                      "hold.particles_minimum", "hold.blur_minimum"};
+constexpr const char* kExpertKeys[] = {
+    "hold.margin",     "hold.caution",           "hold.calm_ms",        "hold.look_ahead_frames",
+    "hold.loss_error", "hold.loss_render_scale", "hold.loss_particles", "hold.loss_blur"};
 
 QString percent(double share) {
   return std::isfinite(share) ? BudgetPanel::tr("%1 %").arg(numberText(100 * share, 1))
@@ -59,28 +53,24 @@ constexpr ReplayMode kReplayModes[] = {
     {QT_TRANSLATE_NOOP("BudgetPanel", "with the budget held"), std::nullopt, true, MotionControl::off,
      RatioMode::adaptive}};
 
-/// A lever of the arbiter: its place in decisions and gains, and how it is written.
-struct LeverLine {
-  double HeldLevers::*value;
-  LeverGain HoldGains::*gain;
-  const char* name;  ///< as a part of a sentence
-  int decimals;
-};
-constexpr LeverLine kLeverLines[] = {
-    {&HeldLevers::errorPx, &HoldGains::error, QT_TRANSLATE_NOOP("BudgetPanel", "allowed error"), 2},
-    {&HeldLevers::renderScale, &HoldGains::renderScale, QT_TRANSLATE_NOOP("BudgetPanel", "render scale"), 2},
-    {&HeldLevers::particleShare, &HoldGains::particles, QT_TRANSLATE_NOOP("BudgetPanel", "particles"), 2},
-    {&HeldLevers::blurShare, &HoldGains::blur, QT_TRANSLATE_NOOP("BudgetPanel", "blur"), 2}};
-enum LeverColumn { kAsked, kHeld, kWon, kLost, kLeverColumns };
+/// Returns what the budget won and lost by a lever; null if it leaves the lever alone.
+const LeverGain* gainOf(const HoldGains& gains, const FrameLeverRow& row) {
+  if (row.value == &FrameLevers::errorPx) return &gains.error;
+  if (row.value == &FrameLevers::renderScale) return &gains.renderScale;
+  if (row.value == &FrameLevers::particleShare) return &gains.particles;
+  if (row.value == &FrameLevers::blurStrength) return &gains.blur;
+  return nullptr;
+}
+enum LeverColumn { kAsked, kBy, kDrawn, kWon, kLost, kLeverColumns };
 
 /// Says what the lowered levers take off, as the end of a sentence: "render scale takes off 2.1 ms". Empty if
 /// none is lowered.
-QString wonText(const HoldDecision& d, const HoldGains& gains) {
+QString wonText(const LeverChain& chain, const HoldGains& gains) {
   QStringList parts;
-  for (const LeverLine& lever : kLeverLines)
-    if (d.held.*lever.value != d.asked.*lever.value)
+  for (const FrameLeverRow& row : kFrameLeverRows)
+    if (lastChange(chain, row) == LeverStep::budget)
       parts << BudgetPanel::tr("%1 takes off %2 ms")
-                   .arg(BudgetPanel::tr(lever.name), numberText((gains.*lever.gain).ms, 1));
+                   .arg(fromView(row.label).toLower(), numberText(gainOf(gains, row)->ms, 1));
   return parts.join(QStringLiteral(", "));
 }
 
@@ -105,21 +95,22 @@ QString comparedText(const RecordedRun& recorded, const RecordedRun& replayed) {
 BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
     : QWidget(parent),
       draft_(draft),
-      state_(new QLabel(tr("The budget is not held: switch it on below"))),
+      state_(new QLabel(tr("The budget is not held"))),
+      limit_(new QLabel),
       residuals_(new QLabel),
       comparison_(new QLabel),
       busy_(new QLabel),
       plot_(new BudgetPlot),
       record_(new QPushButton(tr("&Record"))),
       replay_(new QPushButton(tr("Fl&y again"))),
-      levers_(new QTableWidget(int(std::size(kLeverLines)), kLeverColumns)),
+      levers_(new QTableWidget(int(kFrameLeverRows.size()), kLeverColumns)),
       reasons_(new ReasonList),
       mode_(new QComboBox),
       throttle_(this, [this] { refresh(); }) {
   QFont bold = font();
   bold.setBold(true);
   state_->setFont(bold);
-  for (QLabel* label : {state_, residuals_, comparison_, busy_}) label->setWordWrap(true);
+  for (QLabel* label : {state_, limit_, residuals_, comparison_, busy_}) label->setWordWrap(true);
   comparison_->setToolTip(tr(
       "A p99 needs 100 images. Runs are compared by the medians of each second, with the interval that holds "
       "the ratio by 95 %. They were flown one after the other, so that what the machine did in between is "
@@ -129,15 +120,20 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
       tr("Predictions made three images ahead, of the last 300 images: the median error of triangles and of "
          "time, and the share of images within the 90 % band."));
   levers_->setAccessibleName(tr("Levers of the budget"));
-  levers_->setHorizontalHeaderLabels({tr("Asked for"), tr("Held"), tr("Takes off (ms)"), tr("Loses (FLIP)")});
+  levers_->setHorizontalHeaderLabels(
+      {tr("Asked for"), tr("By"), tr("Drawn"), tr("Takes off (ms)"), tr("Loses (FLIP)")});
+  levers_->horizontalHeaderItem(kBy)->setToolTip(
+      tr("Who changed the lever last before the budget: preset, head motion, weather or policy. The tip of a "
+         "row has the whole chain."));
   levers_->horizontalHeaderItem(kWon)->setToolTip(
       tr("What the lever takes off the predicted time. The levers of an image add up to the difference "
          "between what is asked for and what is held."));
   levers_->horizontalHeaderItem(kLost)->setToolTip(
       tr("What the image loses by the lever, as the mean FLIP that the preset's hold.loss_ parameters rate. "
          "Of all settings that fit the budget, the arbiter chooses the one that loses least."));
-  levers_->setVerticalHeaderLabels(
-      {tr("Allowed error (px)"), tr("Render scale"), tr("Particle density"), tr("Blur")});
+  QStringList names;
+  for (const FrameLeverRow& row : kFrameLeverRows) names << fromView(row.label);
+  levers_->setVerticalHeaderLabels(names);
   levers_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   levers_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   levers_->setSelectionMode(QAbstractItemView::NoSelection);
@@ -149,20 +145,24 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
     }
   const int rowHeight = fontMetrics().height() + 6;
   levers_->verticalHeader()->setDefaultSectionSize(rowHeight);
-  levers_->setFixedHeight(rowHeight * 5 + 6);
+  levers_->setFixedHeight(rowHeight * int(kFrameLeverRows.size() + 1) + 6);
   levers_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   reasons_->setAccessibleName(tr("Changes by the budget"));
 
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
+  layout->addWidget(new ParameterLines(draft, kSwitchKeys));
+  layout->addWidget(limit_);
   layout->addWidget(state_);
+  layout->addWidget(levers_);
   layout->addWidget(plot_);
   layout->addLayout(makeRecorder());
   layout->addWidget(residuals_);
-  layout->addWidget(levers_);
   layout->addWidget(new QLabel(tr("<b>Changes</b>")));
   layout->addWidget(reasons_);
-  layout->addWidget(new ParameterLines(draft, kBudgetKeys));
+  layout->addWidget(new Fold(tr("How far it may go"), new ParameterLines(draft, kLimitKeys), true));
+  layout->addWidget(new Fold(tr("Numbers for experts"), new ParameterLines(draft, kExpertKeys)));
+  connect(&draft_, &Draft::activeChanged, this, [this] { throttle_.request(); });
   refresh();
 }
 
@@ -242,6 +242,10 @@ QString BudgetPanel::stateText() const {
   return state_->text();
 }
 
+QString BudgetPanel::limitText() const {
+  return limit_->text();
+}
+
 QString BudgetPanel::residualsText() const {
   return residuals_->text();
 }
@@ -249,6 +253,7 @@ QString BudgetPanel::residualsText() const {
 void BudgetPanel::showFrame(const LiveFrame& frame) {
   if (!frame.newImage) return;
   shown_ = frame.hold;
+  chain_ = frame.levers;
   gains_ = frame.holdGains;
   throttle_.request();
   if (!frame.counts) return;
@@ -272,7 +277,8 @@ void BudgetPanel::note(const LiveFrame& frame) {
   noted_ = reason;
   if (!moves && reason != HoldReason::out_of_reach && reason != HoldReason::fits) return;
   std::string text = explain(shown_);
-  if (const QString won = wonText(shown_, frame.holdGains); !won.isEmpty()) text += "; " + won.toStdString();
+  if (const QString won = frame.levers ? wonText(*frame.levers, frame.holdGains) : QString(); !won.isEmpty())
+    text += "; " + won.toStdString();
   reasons_->add(frame.time, text);
 }
 
@@ -292,29 +298,53 @@ void BudgetPanel::compare() {
 }
 
 void BudgetPanel::refreshLevers() {
-  const HoldDecision& d = shown_;
-  const bool off = d.reason == HoldReason::off;
-  for (int row = 0; row < int(std::size(kLeverLines)); ++row) {
-    const LeverLine& lever = kLeverLines[row];
-    const double asked = d.asked.*lever.value, held = d.held.*lever.value;
-    const LeverGain& gain = gains_.*lever.gain;
-    const bool lowered = asked != held;
-    levers_->item(row, kAsked)->setText(off ? tr("–") : numberText(asked, lever.decimals));
-    levers_->item(row, kHeld)->setText(off ? tr("–") : numberText(held, lever.decimals));
-    levers_->item(row, kWon)->setText(lowered ? numberText(gain.ms, 2) : tr("nothing"));
-    levers_->item(row, kLost)->setText(lowered ? numberText(gain.loss, 4) : tr("nothing"));
+  if (!chain_) return;
+  for (std::size_t i = 0; i < kFrameLeverRows.size(); ++i) {
+    const FrameLeverRow& row = kFrameLeverRows[i];
+    const LeverGain* const gain = gainOf(gains_, row);
+    const bool lowered = lastChange(*chain_, row) == LeverStep::budget;
+    LeverChain asked = *chain_;
+    asked.drawn = asked.policy;
+    const QString texts[kLeverColumns] = {QString::fromStdString(valueText(chain_->policy, row)),
+                                          fromView(toText(lastChange(asked, row))),
+                                          QString::fromStdString(valueText(chain_->drawn, row)),
+                                          lowered && gain ? numberText(gain->ms, 2) : QString(),
+                                          lowered && gain ? numberText(gain->loss, 4) : QString()};
+    QFont text = font();
+    text.setBold(lowered);
+    for (int column = 0; column < kLeverColumns; ++column) {
+      QTableWidgetItem& item = *levers_->item(int(i), column);
+      item.setText(texts[column]);
+      item.setFont(text);
+      item.setToolTip(QString::fromStdString(explain(*chain_, row)));
+    }
   }
+}
+
+/// The smaller of two limits counts, so what caution takes beyond the margin is what is left.
+void BudgetPanel::refreshLimit() {
+  const TuningParameters& p = *draft_.active();
+  const double budgetMs = p.measure.budget.value(), marginMs = budgetMs * p.hold.margin.value();
+  if (!p.hold.enabled || !(shown_.limitMs > 0)) {
+    limit_->setText(tr("%1 budget − %2 margin = %3 for predictions, less where they are unsure")
+                        .arg(msText(budgetMs), msText(marginMs), msText(budgetMs - marginMs)));
+    return;
+  }
+  const double cautionMs = std::max(budgetMs - marginMs - shown_.limitMs, 0.0);
+  limit_->setText(tr("%1 budget − %2 margin − %3 caution = %4 for predictions")
+                      .arg(msText(budgetMs), msText(marginMs), msText(cautionMs), msText(shown_.limitMs)));
 }
 
 void BudgetPanel::refresh() {
   const HoldDecision& d = shown_;
   if (d.reason == HoldReason::off) {
-    state_->setText(tr("The budget is not held: switch it on below"));
+    state_->setText(tr("The budget is not held"));
   } else {
     QString text = QString::fromStdString(explain(d));
     text[0] = text[0].toUpper();
     state_->setText(text);
   }
+  refreshLimit();
   refreshLevers();
   if (within_.size() == 0)
     residuals_->setText(tr("No prediction has come due yet"));

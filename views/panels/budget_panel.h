@@ -31,6 +31,8 @@ class BudgetPanel : public QWidget {
   void showFrame(const LiveFrame& frame);
 
   QString stateText() const;
+  /// Returns how the limit of predictions follows from the budget.
+  QString limitText() const;
   QString residualsText() const;
   QString comparisonText() const;
   QPushButton& recordButton() { return *record_; }
@@ -57,16 +59,18 @@ class BudgetPanel : public QWidget {
   void count(const HoldOutcome& outcome);
   void note(const LiveFrame& frame);
   void refreshLevers();
+  void refreshLimit();
   void switchTo(int mode);
 
   Draft& draft_;
-  QLabel *state_, *residuals_, *comparison_, *busy_;
+  QLabel *state_, *limit_, *residuals_, *comparison_, *busy_;
   BudgetPlot* plot_;
   QPushButton *record_, *replay_;
   QTableWidget* levers_;
   ReasonList* reasons_;
   QComboBox* mode_;
   HoldDecision shown_;
+  std::optional<LeverChain> chain_;  ///< of the image shown
   HoldGains gains_;
   HoldReason noted_ = HoldReason::off;
   /// These samples are of predictions that came due: how far off they were, as a share, and 1 if the measured

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "budget_strip.h"
 
+#include <QMouseEvent>
 #include <QPainter>
 #include <cmath>
 
@@ -13,6 +14,40 @@ namespace {
 constexpr int kPeriodMs = 1000, kMarginPx = 6;
 /// A preset fits if no more than this share of its images is over the budget.
 constexpr double kFits = 0.05;
+
+/// Returns the parameter that a person turns for a lever; the budget's limit where a preset has no other.
+const char* knobOf(Lever lever) {
+  switch (lever) {
+    case Lever::render_scale:
+      return "hold.render_scale_minimum";
+    case Lever::particle_density:
+      return "hold.particles_minimum";
+    case Lever::blur_strength:
+      return "motion.blur_strength";
+    case Lever::occlusion:
+      return "culling.occlusion";
+    default:
+      return "lod.screen_space_error_px";
+  }
+}
+
+/// Returns the levers that are as far as the budget may move them, or as rules usually do if none is held.
+BudgetMinute::Spent spentOf(const FrameLevers& drawn, const HoldParameters& hold) {
+  const auto leastOr = [&hold](Ratio held, Lever lever) {
+    return hold.enabled ? held.value() : rowOf(lever).usual.low;
+  };
+  const double most = hold.enabled ? hold.errorMaximum.value() : rowOf(Lever::screen_space_error).usual.high;
+  BudgetMinute::Spent spent = 0;
+  const auto spend = [&spent](Lever lever, bool is) { spent |= std::uint32_t{is} << indexOf(lever); };
+  // The budget moves the error by sixteenths of an octave.
+  spend(Lever::screen_space_error, drawn.errorPx * std::exp2(1.0 / 16) > most);
+  spend(Lever::render_scale,
+        drawn.renderScale - 0.05 < leastOr(hold.renderScaleMinimum, Lever::render_scale) - 1e-9);
+  spend(Lever::particle_density,
+        drawn.particleShare <= leastOr(hold.particlesMinimum, Lever::particle_density) + 1e-9);
+  spend(Lever::blur_strength, drawn.blurStrength <= 0);
+  return spent;
+}
 
 }  // namespace
 
@@ -39,6 +74,7 @@ void BudgetStrip::showFrame(const LiveFrame& frame, double imageMpx) {
   if (!frame.newImage || !frame.counts) return;
   load_ = {double(frame.drawn().visible.triangles), imageMpx, imageMpx, frame.decision.weather.density,
            frame.decision.motion.blur.strength > 0};
+  if (frame.levers) drawn_ = frame.levers->drawn;
   minute_.add(frame.time, frame.cost, load_);
   throttle_.request();
 }
@@ -53,18 +89,29 @@ void BudgetStrip::refresh() {
                       : tr("Within %1: all of the last minute").arg(msText(budgetMs)));
   if (const auto stage = minute_.worstStage(budgetMs))
     parts << tr("longest: %1, %2").arg(stage->name, msText(stage->ms));
-  if (const auto help = minute_.help(budgetMs, costs_ ? costs_(load_) : CostCoefficients{}))
-    parts << (std::isnan(help->ms) ? tr("most help: %1").arg(help->lever)
-                                   : tr("most help: %1, −%2").arg(help->lever, msText(help->ms)));
+  named_.reset();
+  const BudgetMinute::Spent spent = drawn_ ? spentOf(*drawn_, draft_.active()->hold) : 0;
+  if (const auto help = minute_.help(budgetMs, costs_ ? costs_(load_) : CostCoefficients{}, spent)) {
+    named_ = help->lever;
+    const QString lever = fromView(rowOf(*named_).label).toLower();
+    parts << (std::isnan(help->ms) ? tr("most help: %1").arg(lever)
+                                   : tr("most help: %1, −%2").arg(lever, msText(help->ms)));
+  }
+  setCursor(named_ ? Qt::PointingHandCursor : Qt::ArrowCursor);
   text_ = parts.join(QStringLiteral("  ·  "));
   setAccessibleDescription(text_);
   setToolTip(
       tr("%1\n\nOf %L2 images. The lever is the one that saves most if it halves what it scales: the "
          "triangles, the pixels, or the particles. Its time is known once the budget has been held on this "
-         "machine for a while; trimtab-cli leverage measures what each lever costs in the image.")
+         "machine for a while, and one that is as far as it may go is not named. A click opens its knob; "
+         "trimtab-cli leverage measures what each lever costs in the image.")
           .arg(text_)
           .arg(minute_.images()));
   update();
+}
+
+void BudgetStrip::mouseReleaseEvent(QMouseEvent*) {
+  if (named_) emit knobAsked(QLatin1String(knobOf(*named_)));
 }
 
 void BudgetStrip::paintEvent(QPaintEvent*) {

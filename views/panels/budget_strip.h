@@ -3,6 +3,7 @@
 
 #include <QFrame>
 #include <functional>
+#include <optional>
 
 #include "views/model/budget_minute.h"
 #include "views/model/draft.h"
@@ -13,7 +14,7 @@ namespace trimtab::views {
 
 /// One line that always says how the budget is kept: the share of the last minute's images that were over
 /// it, the stage that takes longest, and the lever that would help most. It changes at most once a second,
-/// and costs nothing while nothing is drawn.
+/// and costs nothing while nothing is drawn. A click opens the knob of the lever that it names.
 class BudgetStrip : public QFrame {
   Q_OBJECT
 
@@ -32,8 +33,13 @@ class BudgetStrip : public QFrame {
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
 
+ signals:
+  /// The knob of the lever that is named is wanted: a parameter's key.
+  void knobAsked(const QString& key);
+
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
 
  private:
   void refresh();
@@ -42,6 +48,8 @@ class BudgetStrip : public QFrame {
   Costs costs_;
   BudgetMinute minute_;
   FrameLoad load_;
+  std::optional<FrameLevers> drawn_;
+  std::optional<Lever> named_;
   QString text_;
   bool over_ = false;
   Throttle throttle_;

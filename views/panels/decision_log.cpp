@@ -21,8 +21,8 @@ bool isInputAtFault(SchemeReason reason) {
 bool isDecisionChange(const FrameDecision& before, const FrameDecision& now) {
   const bool faults = isInputAtFault(now.reason) || isInputAtFault(before.reason);
   return now.scheme != before.scheme || now.band != before.band ||
-         now.occlusionResolution != before.occlusionResolution || now.motion.lodScale != before.motion.lodScale ||
-         (faults && now.reason != before.reason);
+         now.occlusionResolution != before.occlusionResolution ||
+         now.motion.lodScale != before.motion.lodScale || (faults && now.reason != before.reason);
 }
 
 QString changeText(const FrameDecision& before, const FrameDecision& now) {

@@ -17,12 +17,29 @@
 #include "trimtab/decision/decide.h"
 #include "views/controls/ask_csv_file.h"
 #include "views/controls/bar_list.h"
+#include "views/controls/lever_chain_table.h"
 #include "views/controls/tell_findings.h"
 #include "views/editors/rule_edit.h"
 #include "views/model/depth_map_reason.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
+namespace {
+
+/// Which levers the rules set, and which signals they miss.
+QString policyReason(const PolicyOutcome& policy) {
+  QStringList set, unknown;
+  for (const LeverRow& row : kLeverRows)
+    if (policy.moves(row.lever)) set << fromView(row.label);
+  for (const SignalRow& row : kSignalRows)
+    if (policy.unknownAsked >> indexOf(row.signal) & 1) unknown << fromView(row.label);
+  QString text = set.isEmpty() ? DecisionPanel::tr("No rule sets a lever")
+                               : DecisionPanel::tr("Rules set %1").arg(set.join(QStringLiteral(", ")));
+  if (!unknown.isEmpty()) text += DecisionPanel::tr("; unknown: %1").arg(unknown.join(QStringLiteral(", ")));
+  return text;
+}
+
+}  // namespace
 
 DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
     : QWidget(parent),
@@ -31,6 +48,7 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
       reason_(new QLabel),
       lead_(new QPushButton(tr("Go to Culling"))),
       count_(new QLabel),
+      levers_(new LeverChainTable),
       memberships_(new BarList),
       rules_(new BarList),
       log_(new DecisionLog(this)),
@@ -103,6 +121,7 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
   layout->addWidget(scheme_);
   layout->addWidget(reason_);
   layout->addWidget(lead_, 0, Qt::AlignLeft);
+  layout->addWidget(levers_);
   layout->addWidget(memberships_);
   layout->addWidget(rules_);
   layout->addLayout(logBar);
@@ -146,6 +165,10 @@ void DecisionPanel::refresh() {
     reason_->setText(why.isEmpty() ? reason : reason + QStringLiteral(". ") + why);
     lead_->setVisible(!why.isEmpty());
   }
+  if (frame_.levers)
+    levers_->showChain(*frame_.levers, {tr("What the preset asks for"), fromView(toText(d.motion.reason)),
+                                        fromView(toText(d.weather.farReason)), policyReason(d.policy),
+                                        QString::fromStdString(explain(frame_.hold))});
   std::vector<double> edges;
   for (const Band& band : p.scheme.bands.span()) edges.push_back(band.low);
   const auto text = [](double value) { return QString::number(value, 'f', 3); };

@@ -15,6 +15,7 @@ namespace trimtab::views {
 
 class BarList;
 class DecisionLog;
+class LeverChainTable;
 
 /// The Decision dock: what was decided, from what and why, and a log of changes.
 class DecisionPanel : public QWidget {
@@ -23,6 +24,7 @@ class DecisionPanel : public QWidget {
   explicit DecisionPanel(Draft& draft, QWidget* parent = nullptr);
   const DecisionLog& log() const { return *log_; }
   QTableView& logView() { return *view_; }
+  LeverChainTable& levers() { return *levers_; }
   void showFrame(const LiveFrame& frame);
   /// Writes the whole log to a file. The findings say why it failed.
   Findings saveLog(const QString& file) const;
@@ -42,6 +44,7 @@ class DecisionPanel : public QWidget {
   QLabel *scheme_, *reason_;
   QPushButton* lead_;
   QLabel* count_;
+  LeverChainTable* levers_;
   BarList *memberships_, *rules_;
   DecisionLog* log_;
   QTableView* view_;

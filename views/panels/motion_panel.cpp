@@ -149,13 +149,13 @@ void MotionPanel::refresh() {
                   .ticks = {m.restoreLimit},
                   .colour = 2,
                   .quiet = m.restoreLimit <= 0});
-  bars.push_back({.name = tr("LOD scale"),
+  bars.push_back({.name = tr("LOD scale by head motion"),
                   .value = m.lodScale - 1,
                   .top = std::max(3.0, m.lodScale - 1),
                   .text = tr("× %1, level %2").arg(numberText(m.lodScale, 2)).arg(m.level),
                   .ticks = {},
                   .colour = 1});
-  bars.push_back({.name = tr("Blur"),
+  bars.push_back({.name = tr("Blur asked for"),
                   .value = m.blur.remainingMs,
                   .top = std::max(draft_.active()->motion.blurDuration.value(), m.blur.remainingMs),
                   .text = m.blur.strength > 0

@@ -280,8 +280,10 @@ void WeatherPanel::refresh() {
   reason_->setText(QString::fromStdString(explain(d)));
   visibility_->setText(distanceText(d.visibilityM));
   density_->setText(numberText(d.density, 3));
-  ratio_->setText(std::isfinite(d.farM) ? ratioText(d.nearFarRatio) : tr("no cut"));
-  far_->setText(distanceText(d.farM));
+  // A policy may multiply what the weather decides, and the image shows the product.
+  const double farM = frame_.levers ? frame_.levers->drawn.farM : d.farM;
+  ratio_->setText(std::isfinite(farM) ? ratioText(d.nearFarRatio * d.farM / farM) : tr("no cut"));
+  far_->setText(distanceText(farM));
   cut_->setText(tr("%1 of %2 tiles")
                     .arg(numberText(double(frame_.drawn().visible.beyondVisibility), 0),
                          numberText(double(frame_.drawn().tilesInCut), 0)));

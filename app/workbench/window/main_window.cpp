@@ -27,6 +27,7 @@
 #include "app/workbench/docks/host_dock.h"
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/viewport/split_view.h"
+#include "app/workbench/window/palette_entries.h"
 #include "job_bar.h"
 #include "menus.h"
 #include "notice_bar.h"
@@ -155,6 +156,8 @@ void MainWindow::connectParts() {
   const Controllers& c = controllers_;
   connect(c.frame.get(), &FrameController::frameShown, this,
           [this](const views::LiveFrame& frame) { docks_.showFrame(frame); });
+  connect(strip_, &views::BudgetStrip::knobAsked, this,
+          [this](const QString& key) { openParameter(*panels_.parameters, key.toStdString()); });
   strip_->setCosts(
       [this](const FrameLoad& load) { return feed_.session().hold().model().coefficients(load); });
   connect(c.frame.get(), &FrameController::frameShown, strip_, [this](const views::LiveFrame& frame) {

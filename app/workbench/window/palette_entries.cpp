@@ -76,12 +76,7 @@ void addParameters(Entries& to, views::ParameterTable& table) {
     to.push_back({QStringLiteral("%1 (%2)").arg(views::fromView(row.label), views::fromView(row.key)),
                   QObject::tr("parameter"),
                   {},
-                  [&table, &row] {
-                    raiseDock(table);
-                    table.search().setText(views::fromView(row.key));
-                    // As by the Tab key, which selects the number.
-                    if (views::ParameterLine* line = table.line(row.key)) begin(*line->editor());
-                  }});
+                  [&table, &row] { openParameter(table, row.key); }});
 }
 
 void addFile(Entries& to, const QString& path, const QString& shown, const QString& hint,
@@ -97,6 +92,13 @@ void addRecent(Entries& to, const QString& kind, const QString& shown,
 }
 
 }  // namespace
+
+void openParameter(views::ParameterTable& table, std::string_view key) {
+  raiseDock(table);
+  table.search().setText(views::fromView(key));
+  // As by the Tab key, which selects the number.
+  if (views::ParameterLine* line = table.line(key)) begin(*line->editor());
+}
 
 std::vector<PaletteEntry> paletteEntries(QMainWindow& window, const Controllers& by, const Panels& panels,
                                          SessionKeeper& sessions) {

@@ -175,7 +175,7 @@ TEST_F(LeverageTest, leavesThePolicyOfThePresetOut) {
   s.parameters.policy.rules.line = {"if altitude is any then lod_scale = 4, render_scale = 0.5"};
   const auto active = validate(s.parameters);
   ASSERT_TRUE(active) << toString(active.findings());
-  EXPECT_EQ(momentsOf(s, *active, false)[0].request.renderScale, 0.5) << "it would be there";
+  EXPECT_EQ(momentsOf(s, *active, false)[0].request.levers.drawn.renderScale, 0.5) << "it would be there";
   s.repeats = 1;
   s.frames = 1;
   const auto with = measureLeverage(s), without = measureLeverage([] {
@@ -210,13 +210,9 @@ TEST_F(LeverageTest, setsALeverAsAPolicyWithThatTargetDoes) {
       for (std::size_t i = 0; i < ours.size(); ++i) {
         const FrameRequest set = withLever(ours[i].request, lever.lever, value, s.parameters);
         const FrameRequest& decided = theirs[i].request;
-        EXPECT_EQ(set.lod.screenSpaceError.value(), decided.lod.screenSpaceError.value());
-        EXPECT_EQ(set.staticLod.errorPx.value(), decided.staticLod.errorPx.value());
+        EXPECT_EQ(set.levers, decided.levers);
         EXPECT_EQ(set.decision.weather, decided.decision.weather);
         EXPECT_EQ(set.decision.motion, decided.decision.motion);
-        EXPECT_EQ(set.particleShare, decided.particleShare);
-        EXPECT_EQ(set.renderScale, decided.renderScale);
-        EXPECT_EQ(set.decision.lodScale, decided.decision.lodScale);
         EXPECT_EQ(set.decision.scheme, decided.decision.scheme);
         EXPECT_EQ(set.decision.band, decided.decision.band);
         EXPECT_EQ(set.decision.occlusionResolution, decided.decision.occlusionResolution);

@@ -240,8 +240,7 @@ TEST(FlyFrames, fliesAnewForEachRepeatWhereTimeDecides) {
   ASSERT_TRUE(timed && counted);
   EXPECT_EQ((*timed)[0].images.size(), plan.repeats);
   EXPECT_EQ((*counted)[0].images.size(), 1u);
-  for (const FlownFrame::Image& image : (*timed)[0].images)
-    EXPECT_EQ(image.request.lod.screenSpaceError.value(), 16);
+  for (const FlownFrame::Image& image : (*timed)[0].images) EXPECT_EQ(image.request.levers.drawn.errorPx, 16);
   EXPECT_EQ(&(*counted)[0].ofRepeat(1), &(*counted)[0].images[0]);
 }
 

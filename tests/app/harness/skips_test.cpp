@@ -29,7 +29,7 @@ class SkipsTest : public test::SceneTest {
     auto r = request(over(0.4, 0.4, 60), {Degrees{heading}, Degrees{-1}, Degrees{3}});
     r.view.widthPx /= 2;
     r.view.heightPx /= 2;
-    r.lod.screenSpaceError = Pixels{0.7};
+    r.levers.drawn.errorPx = 0.7;
     r.time = heading;
     TuningParameters p;
     p.symbology.enabled = true;
@@ -41,7 +41,7 @@ class SkipsTest : public test::SceneTest {
     r.decision.weather.fogged = true;
     r.decision.weather.visibilityM = 9000;
     r.decision.weather.extinctionPerM = 3.912 / 9000;
-    r.decision.weather.farM = 9000;
+    r.levers.drawn.farM = 9000;
   }
   const SkipSaving& saving(const std::vector<SkipSaving>& savings, std::string_view name) {
     for (const SkipSaving& s : savings)
@@ -62,17 +62,17 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
       {"scheme frustum", [](FrameRequest&) {}},
       {"depth map",
        [](FrameRequest& r) {
-         r.decision.occlusionResolution = OcclusionResolution{400, 300};
+         r.levers.drawn.occlusion = OcclusionResolution{400, 300};
        }},
       {"horizon",
        [](FrameRequest& r) {
-         r.decision.occlusionResolution = OcclusionResolution{400, 300};
+         r.levers.drawn.occlusion = OcclusionResolution{400, 300};
          r.occlusion = OcclusionMethod::horizon;
        }},
       {"climb high above, horizon",
        [](FrameRequest& r) {
          r.eye.height = r.eye.height + Metres{3000};
-         r.decision.occlusionResolution = OcclusionResolution{400, 300};
+         r.levers.drawn.occlusion = OcclusionResolution{400, 300};
          r.occlusion = OcclusionMethod::horizon;
        },
        20},
@@ -81,7 +81,7 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
        [](FrameRequest& r) {
          r.eye.height = r.eye.height + Metres{6000};
          r.attitude.pitch = Degrees{-50};
-         r.decision.occlusionResolution = OcclusionResolution{400, 300};
+         r.levers.drawn.occlusion = OcclusionResolution{400, 300};
          r.occlusion = OcclusionMethod::cpu_map;
        },
        20, 0},
@@ -89,7 +89,7 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
       {"fog, depth map",
        [](FrameRequest& r) {
          foggy(r);
-         r.decision.occlusionResolution = OcclusionResolution{400, 300};
+         r.levers.drawn.occlusion = OcclusionResolution{400, 300};
        }},
       {"trees", [](FrameRequest& r) { r.staticLod.terrain = TerrainForm::static_trees; }},
       {"trees in fog",
@@ -102,7 +102,7 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
   double heading = 0;  // where something is hidden
   for (FrameResult result; heading < 360; heading += 15) {
     auto r = looking(heading);
-    r.decision.occlusionResolution = OcclusionResolution{400, 300};
+    r.levers.drawn.occlusion = OcclusionResolution{400, 300};
     picture(r, &result);
     if (result.visible.occluded > 0) break;
   }
@@ -177,8 +177,8 @@ TEST_F(SkipsTest, areCountedByFrameAndMeasured) {
   frames[4].eye = over(0.44, 0.4, 60);
   frames[4].decision.weather.precipitation = Precipitation::rain;
   frames[4].decision.weather.density = 0.5;
-  frames[4].decision.motion.blur.strength = 0.5;
-  frames[2].decision.occlusionResolution = OcclusionResolution{400, 300};
+  frames[4].levers.drawn.blurStrength = 0.5;
+  frames[2].levers.drawn.occlusion = OcclusionResolution{400, 300};
   // A frame that makes tiles takes long here, so that no machine hides which of the two it is.
   std::uint64_t built = 0;
   const auto slowTiles = [&](const FrameRequest& r) {

@@ -250,7 +250,7 @@ void methodRows(Report& report) {
   if (!scene.ready()) return;
   auto r = scene.request();
   r.method = CullingCase::proposed;
-  r.decision.occlusionResolution = OcclusionResolution{640, 480};
+  r.levers.drawn.occlusion = OcclusionResolution{640, 480};
   const auto cost = [&](OcclusionMethod method) {
     return [&scene, &r, method](int i) {
       auto now = r;

@@ -108,11 +108,11 @@ void floorRow(Report& report, const std::string& terrain,
     r.attitude = {Degrees{heading(random)}, Degrees{-5}, Degrees{0}};
     r.eye = placeOver(*database, east, north, 2000 * 0.3048);
     r.view.widthPx = kWidth, r.view.heightPx = kHeight;
-    r.lod.screenSpaceError = Pixels{errorPx};
+    r.levers.drawn.errorPx = errorPx;
     r.staticLod.terrain = form;
     r.waitForPages = true;
     r.occlusion = OcclusionMethod::horizon;
-    r.decision.occlusionResolution = OcclusionResolution{800, 600};
+    r.levers.drawn.occlusion = OcclusionResolution{800, 600};
     same = floor.measure(r, report.quick() ? 4 : 16) && same;
   }
   const std::size_t triangles = 5;

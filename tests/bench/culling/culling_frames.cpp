@@ -65,9 +65,9 @@ class Frames {
       r.view.widthPx = 1280, r.view.heightPx = 720;
       r.occlusion = flight.method;
       r.waitForPages = true;
-      r.lod.screenSpaceError = Pixels{flight.errorPx};
+      r.levers.drawn.errorPx = flight.errorPx;
       // The band of level flight below 4,000 ft, and above 8,000 ft.
-      r.decision.occlusionResolution =
+      r.levers.drawn.occlusion =
           flight.feet < 4000 ? OcclusionResolution{800, 600} : OcclusionResolution{320, 240};
       int pairs = leastPairs;
       double warmMs = 0;
@@ -133,8 +133,8 @@ class Frames {
     r.view.widthPx = 1280, r.view.heightPx = 720;
     r.occlusion = method;
     r.waitForPages = true;
-    r.lod.screenSpaceError = Pixels{0.05};
-    r.decision.occlusionResolution = OcclusionResolution{800, 600};
+    r.levers.drawn.errorPx = 0.05;
+    r.levers.drawn.occlusion = OcclusionResolution{800, 600};
     const int frames = report.quick() ? 8 : 24, warmUp = 8;
     std::vector<double> stage, total;
     std::size_t cut = 0, looked = 0;

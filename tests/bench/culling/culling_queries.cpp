@@ -57,10 +57,9 @@ class Queries {
       r.method = CullingCase::proposed;
       // All surfaces that may hide others at once: the peer has its scene whole too.
       r.reproducible = true;
-      r.lod.screenSpaceError = Pixels{kErrorPx};
+      r.levers.drawn.errorPx = kErrorPx;
       // The band of level flight below 4,000 ft, and above 8,000 ft.
-      r.decision.occlusionResolution =
-          feet < 4000 ? OcclusionResolution{800, 600} : OcclusionResolution{320, 240};
+      r.levers.drawn.occlusion = feet < 4000 ? OcclusionResolution{800, 600} : OcclusionResolution{320, 240};
       measure(r, report.quick() ? 2 : 4);
     }
     const std::string at = "_" + terrain + "_" + std::to_string(static_cast<int>(feet)) + "ft";

@@ -58,7 +58,7 @@ struct Course {
     r.velocity = Velocity{MetresPerSecond{0}, MetresPerSecond{kSpeed}, MetresPerSecond{0}};
     r.staticLod.terrain = TerrainForm::patches;
     r.terrain.cache = Megabytes{kBudgetMb};
-    r.lod.screenSpaceError = Pixels{2};
+    r.levers.drawn.errorPx = 2;
     return r;
   }
 };

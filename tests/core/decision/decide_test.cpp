@@ -204,8 +204,8 @@ TEST(Decide, saysThatNoRuleFires) {
 TEST(Decide, carriesTheLevelOfDetailScale) {
   TuningParameters p = kDefaults;
   p.lod.scale = Ratio{1.5};
-  EXPECT_EQ(first(flying(0, 0), valid(p)).lodScale, 1.5);
-  EXPECT_EQ(first(flying(kNan, 0), valid(p)).lodScale, 1.5);
+  EXPECT_EQ(leversOf(first(flying(0, 0), valid(p)), *valid(p)).drawn.lodScale, 1.5);
+  EXPECT_EQ(leversOf(first(flying(kNan, 0), valid(p)), *valid(p)).drawn.lodScale, 1.5);
 }
 
 TEST(Decide, neverFlipsOnARandomWalkOfOneFoot) {
@@ -308,6 +308,25 @@ TEST(Explain, namesTheRulesThatFire) {
       explain(first(flying(3000, 0), rules), rules),
       "dynamic, depth map 800 x 600: 3000 ft gives 1.000, pitch 0.00 deg gives 0.500, rules 1.500 (low-down "
       "0.500, low-up 0.500), in band [1.5, 2]");
+}
+
+TEST(Decide, theChainKeepsWhatThePresetWouldHaveDrawn) {
+  TuningParameters p = *asPublished();
+  p.policy.enabled = true;
+  p.policy.rules.line = {"if altitude is any then occlusion = 0", "if altitude is any then lod_scale = 3"};
+  const ValidatedParameters parameters = valid(p);
+  const FrameDecision plain = first(flying(3000, 0), asPublished());
+  FrameInput input = flying(3000, 0);
+  input.signalValues[Signal::altitude] = 3000;
+  const FrameDecision ruled = first(input, parameters);
+  const LeverChain chain = leversOf(ruled, *parameters);
+  EXPECT_EQ(ruled.scheme, Scheme::frustum) << "the rule says so";
+  EXPECT_FALSE(chain.drawn.occlusion);
+  EXPECT_EQ(chain.preset.occlusion, plain.occlusionResolution) << "the memberships do not";
+  EXPECT_TRUE(chain.preset.occlusion);
+  EXPECT_EQ(chain.weather.lodScale, 1);
+  EXPECT_EQ(chain.drawn.lodScale, 3);
+  EXPECT_EQ(chain.drawn, chain.policy);
 }
 
 }  // namespace

@@ -130,7 +130,7 @@ TraceRow anyRow(std::mt19937_64& random) {
     d.occlusionResolution =
         OcclusionResolution{static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
   d.reason = static_cast<SchemeReason>(random() % 6);
-  d.lodScale = number();
+  row.levers.policy.lodScale = number();
   anyMotion(random, row.before, d);
   anyWeather(random, d.weather);
   anyPolicy(random, row);

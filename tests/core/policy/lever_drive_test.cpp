@@ -128,4 +128,16 @@ TEST(LeverDrive, keepsRangeAndRateAndRestsForAnyRuleBase) {
 }
 
 }  // namespace
+TEST(LeverDrive, theValueOfThePresetIsNotBoundToWhatRulesMayAsk) {
+  LeverValues preset = neutral();
+  preset[Lever::screen_space_error] = 128;
+  LeverDrive drive;
+  EXPECT_EQ(drive.follow(0, {}, preset)[Lever::screen_space_error], 128);
+  LeverValues asked;
+  asked[Lever::screen_space_error] = 1000;
+  drive.restart();
+  EXPECT_EQ(drive.follow(0, asked, preset)[Lever::screen_space_error],
+            rowOf(Lever::screen_space_error).hard.high);
+}
+
 }  // namespace trimtab

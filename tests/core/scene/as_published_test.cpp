@@ -60,7 +60,7 @@ class AsPublished : public test::SceneTest {
       FrameRequest r = *session.request(state.time, kWidth, kHeight);
       if (i < kStill + kDwell || i % kDrawnEach != 0) continue;
       r.staticLod.terrain = TerrainForm::levels;
-      r.decision.motion.blur = {};
+      r.levers.drawn.blurStrength = 0;
       r.waitForPages = true;
       vertices += double(renderer.draw(r, offscreen->framebuffer()).visible.vertices);
       ++drawn;
@@ -78,7 +78,7 @@ TEST_F(AsPublished, testsStaticTreesAndLeavesOutWhatIsHiddenWithoutAPixelChanged
   for (int i = 0; i < kViews; ++i) {
     const double part = (i + 0.5) / kViews;
     FrameRequest r = requestAt(stateAt(*flight, flight->beginS() + part * flight->durationS()));
-    dynamic += r.decision.occlusionResolution.has_value();
+    dynamic += r.levers.drawn.occlusion.has_value();
     FrameResult whole, culled;
     r.method = CullingCase::none;
     const auto unculled = picture(r, &whole);

@@ -90,7 +90,7 @@ class Precision : public test::SceneTest {
                        {Degrees{-3 + 6 * part(random)}, Degrees{0}, Degrees{0}});
       r.view.widthPx = 1280, r.view.heightPx = 720;
       r.overlays.showHoles = true;
-      r.lod.screenSpaceError = Pixels{0.01};
+      r.levers.drawn.errorPx = 0.01;
       bad += wrong(r, tolerance, near);
     }
     EXPECT_GT(near, 3000u) << "the outline was hardly seen";

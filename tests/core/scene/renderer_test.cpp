@@ -27,9 +27,9 @@ class Renderer : public SceneTest {
         auto r = request(over(0.48 + above * 1e-5, 0.52, above),
                          {Degrees{above}, Degrees{-90 + above / 200}, Degrees{error}});
         r.overlays.showHoles = true;
-        r.lod.screenSpaceError = Pixels{error};
+        r.levers.drawn.errorPx = error;
         r.method = CullingCase::proposed;
-        r.decision.occlusionResolution = OcclusionResolution{320, 240};
+        r.levers.drawn.occlusion = OcclusionResolution{320, 240};
         FrameResult result;
         EXPECT_EQ(magenta(picture(r, &result)), 0u) << above << " m, " << error << " px";
         for (const TileDraw& tile : result.visible.tiles) levels.insert(database->index().level[tile.node]);
@@ -134,9 +134,9 @@ TEST_F(Renderer, doesNotRepeatWorkThatNothingAsksFor) {
   const auto built = result.counters.tilesBuilt;
   result = renderer.draw(r, offscreen->framebuffer());
   EXPECT_EQ(result.counters.tilesBuilt, built);
-  r.lod.screenSpaceError = Pixels{3};
+  r.levers.drawn.errorPx = 3;
   EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 2u);
-  r.decision.lodScale = 2;
+  r.levers.drawn.lodScale = 2;
   EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 3u);
   r.eye.height = r.eye.height + Metres{1};
   EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 4u);
@@ -147,7 +147,7 @@ TEST_F(Renderer, doesNotRepeatWorkThatNothingAsksFor) {
 TEST_F(Renderer, holdsCullingStillWhileFrozen) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 300), {Degrees{40}, Degrees{-5}, Degrees{0}});
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   const auto live = renderer.draw(r, offscreen->framebuffer());
   r.frozenEye = EyePose{database->index().frame.fromGeodetic(r.eye),
                         eyeAxes(database->index().frame, r.eye, r.attitude)};
@@ -162,7 +162,7 @@ TEST_F(Renderer, holdsCullingStillWhileFrozen) {
 TEST_F(Renderer, paintsEachOverlay) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 600), {Degrees{40}, Degrees{-15}, Degrees{0}});
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   paintEachOverlay(r);
 }
 
@@ -173,8 +173,8 @@ TEST_F(Renderer, readsDepthByReversedConvention) {
       [](int c, int r) { return 0.1 * ((c * 7 + r * 13) % 3); }));
   for (const double above : {400.0, 1000.0, 4000.0}) {
     auto r = request(over(0.5, 0.5, above), {Degrees{0}, Degrees{-45}, Degrees{0}});
-    r.decision.occlusionResolution = OcclusionResolution{641, 481};
-    r.lod.screenSpaceError = Pixels{0.001};
+    r.levers.drawn.occlusion = OcclusionResolution{641, 481};
+    r.levers.drawn.errorPx = 0.001;
     ASSERT_TRUE(renderer.draw(r, offscreen->framebuffer()).depthMap.has_value());
     const auto grey = renderer.readDepthMap();
     const double expected = 254 * std::log(above * std::sqrt(2.0) / 50) / std::log(200e3 / 50);
@@ -185,7 +185,7 @@ TEST_F(Renderer, readsDepthByReversedConvention) {
 TEST_F(Renderer, measuresItsStages) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 400), {});
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   FrameResult result;
   for (int i = 0; i < 6; ++i) result = renderer.draw(r, offscreen->framebuffer());
   const FrameCost& c = result.cost;

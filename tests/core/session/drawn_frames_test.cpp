@@ -141,6 +141,16 @@ TEST(DrawnFrames, aTraceHoldsARowForEachImageAndReplaysToTheBit) {
   EXPECT_TRUE(rows[100].input.drawn.framesPerS && rows[100].input.drawn.vertices && rows[100].frame);
   EXPECT_NEAR(*rows[100].input.drawn.framesPerS, kImagesPerS, 1e-6);
 
+  std::size_t between = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const FrameInput &before = rows[i - 1].input, &now = rows[i].input;
+    ASSERT_TRUE(now.drawn.eye);
+    if (now.state.packet != before.state.packet) continue;
+    EXPECT_EQ(now.state, before.state) << "one packet, one state";
+    between += now.drawn.eye != before.drawn.eye;
+  }
+  EXPECT_GT(between, 100u) << "images between two states look elsewhere";
+
   std::string text = traceHeader() + '\n';
   for (const TraceRow& row : rows) appendTraceRow(text, row);
   const auto read = parseTrace(text, "trace");

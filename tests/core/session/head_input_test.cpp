@@ -80,9 +80,9 @@ TEST(HeadInput, aSweepOf180DegreesInASecondLowersAndRaisesTheLevels) {
   for (const TraceRow& row : rows) {
     lowered += row.decision.motion.reason == MotionReason::lowered;
     raised += row.decision.motion.reason == MotionReason::raised;
-    largest = std::max(largest, row.decision.lodScale);
+    largest = std::max(largest, row.levers.drawn.lodScale);
     if (row.input.state.time < 2 + 9.5 / 60) {
-      EXPECT_EQ(row.decision.lodScale, 1) << row.input.state.time;
+      EXPECT_EQ(row.levers.drawn.lodScale, 1) << row.input.state.time;
     }
   }
   EXPECT_EQ(lowered, 4) << "two levels each way";
@@ -98,8 +98,8 @@ TEST(HeadInput, multipliesThePresetsLodScaleOnce) {
   session.head().useLog(sweep());
   for (int i = 0; i < 132; ++i) session.fly(level(i / 60.0));
   ASSERT_EQ(session.decision().motion.lodScale, 2);
-  EXPECT_EQ(session.decision().lodScale, 3);
-  EXPECT_EQ(session.request(0, 640, 480)->decision.lodScale, 3);
+  EXPECT_EQ(session.levers().drawn.lodScale, 3);
+  EXPECT_EQ(session.request(0, 640, 480)->levers.drawn.lodScale, 3);
 }
 
 TEST(HeadInput, replaysARecordedLogToTheBit) {

@@ -59,11 +59,11 @@ class Machine {
     // Neighbours add an eighth.
     const double counted = countTriangles(*index_->tiles, view, rule, 1, stack_).front();
     result.visible.triangles = static_cast<std::uint64_t>(triangleShare * 1.125 * counted);
-    const double pixels = request.renderScale * request.renderScale;
+    const double pixels = request.levers.drawn.renderScale * request.levers.drawn.renderScale;
     const double noise = std::normal_distribution<double>(1, 0.04)(random_);
     FrameCost& c = result.cost;
     const double amount = fallsNow(request).amount;
-    c.weather = amount > 0 ? 0.5 + pixels + 12 * amount * request.particleShare : kNan;
+    c.weather = amount > 0 ? 0.5 + pixels + 12 * amount * request.levers.drawn.particleShare : kNan;
     c.blur = request.decision.motion.blur.strength > 0 ? 3 * pixels : kNan;
     c.draw = noise * (3 + 9 * pixels + 1e-4 * static_cast<double>(result.visible.triangles)) +
              (std::isnan(c.weather) ? 0 : c.weather) + (std::isnan(c.blur) ? 0 : c.blur);
@@ -199,7 +199,7 @@ TEST(HoldSession, namesTheNodesOfComingImages) {
       });
       return static_cast<double>(found) / static_cast<double>(nodes.size());
     };
-    const double errorPx = request.lod.screenSpaceError.value();
+    const double errorPx = request.levers.drawn.errorPx;
     EXPECT_GT(shareNamed(drawnBy(errorPx)), 0.9) << holds;
     if (holds) {
       const bool returns = memory.wantedError != memory.steps.error;
@@ -302,8 +302,8 @@ TEST(HoldSession, aTraceReplaysEveryArbitrationToTheBit) {
     replay.replay((*read)[i]);
     const FrameRequest request = *replay.request((*read)[i].input.state.time, 640, 360);
     EXPECT_EQ(request.hold, flown.requests[i].hold) << i;
-    EXPECT_EQ(request.renderScale, flown.requests[i].renderScale) << i;
-    EXPECT_EQ(request.lod.screenSpaceError.value(), flown.requests[i].lod.screenSpaceError.value()) << i;
+    EXPECT_EQ(request.levers.drawn.renderScale, flown.requests[i].renderScale) << i;
+    EXPECT_EQ(request.levers.drawn.errorPx, flown.requests[i].levers.drawn.errorPx) << i;
     lowered += request.hold.held != request.hold.asked;
   }
   EXPECT_GT(lowered, 50);
@@ -313,7 +313,7 @@ TEST(HoldSession, changesNothingUnlessThePresetAsksForIt) {
   const Flown flown = fly(*validate(TuningParameters{}), 50);
   for (const FrameRequest& request : flown.requests) {
     EXPECT_EQ(request.hold, HoldDecision{});
-    EXPECT_EQ(request.renderScale, 1);
+    EXPECT_EQ(request.levers.drawn.renderScale, 1);
     EXPECT_FALSE(request.separateStages);
   }
   for (const TraceRow& row : flown.rows) EXPECT_FALSE(row.hold);

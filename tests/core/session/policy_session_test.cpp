@@ -8,7 +8,6 @@
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/frame/ground_heights.h"
 #include "trimtab/measure/trace.h"
-#include "trimtab/session/lever_request.h"
 #include "trimtab/session/session.h"
 
 namespace trimtab {
@@ -86,10 +85,10 @@ TEST(PolicySession, setsWhatTheRequestAsksFor) {
   EXPECT_GT(ground->asked, 0) << "a rule asks for the height above ground";
   const auto request = session.request(1, 640, 360);
   ASSERT_TRUE(request);
-  EXPECT_DOUBLE_EQ(request->lod.screenSpaceError.value(), 8);
-  EXPECT_DOUBLE_EQ(request->staticLod.errorPx.value(), 8);
-  EXPECT_DOUBLE_EQ(request->decision.lodScale, 1) << "the load is unknown before an image is finished";
-  EXPECT_EQ(request->renderScale, 1);
+  EXPECT_DOUBLE_EQ(request->levers.drawn.errorPx, 8);
+  EXPECT_DOUBLE_EQ(request->levers.drawn.treeErrorPx, 4) << "half of the others', as in the preset";
+  EXPECT_DOUBLE_EQ(request->levers.drawn.lodScale, 1) << "the load is unknown before an image is finished";
+  EXPECT_EQ(request->levers.drawn.renderScale, 1);
   EXPECT_TRUE(session.decision().policy.unknownAsked & 1u << indexOf(Signal::load));
   EXPECT_NE(explain(session.decision(), session.parameters()).find("Load unknown"), std::string::npos);
 }
@@ -116,8 +115,8 @@ TEST(PolicySession, withoutAPolicyNothingIsSetAndNothingIsAsked) {
   session.fly(flownAt(1, 300));
   const auto request = session.request(1, 640, 360);
   ASSERT_TRUE(request);
-  EXPECT_EQ(request->renderScale, 1);
-  EXPECT_EQ(request->particleShare, 1);
+  EXPECT_EQ(request->levers.drawn.renderScale, 1);
+  EXPECT_EQ(request->levers.drawn.particleShare, 1);
   EXPECT_EQ(request->decision.policy, PolicyOutcome{});
   EXPECT_EQ(ground->asked, 0);
   for (const double value : session.input().signalValues.value) EXPECT_TRUE(std::isnan(value));
@@ -139,18 +138,6 @@ TEST(PolicySession, whoWatchesSeesTheSignalsOfAPresetWithoutAPolicy) {
   EXPECT_EQ(session.signalValues()[Signal::altitude], session.input().signalValues[Signal::altitude]);
 }
 
-TEST(PolicySession, aNearerFarCutHasItsOwnNearFarRatio) {
-  PolicyOutcome outcome;
-  outcome.moved = 1u << indexOf(Lever::far_distance);
-  outcome.value[indexOf(Lever::far_distance)] = 0.5;
-  FrameRequest request;
-  request.decision.weather.farM = 8000;
-  request.decision.weather.nearFarRatio = 2.0 / 8000;
-  applyLevers(outcome, request);
-  EXPECT_EQ(request.decision.weather.farM, 4000);
-  EXPECT_DOUBLE_EQ(request.decision.weather.nearFarRatio, 2.0 / 4000);
-}
-
 TEST(PolicySession, heavyFramesMoveTheLeversAndNoFasterThanTheirRates) {
   Session session(lowAndLoaded());
   double last = 1, lastScale = 1;
@@ -159,11 +146,12 @@ TEST(PolicySession, heavyFramesMoveTheLeversAndNoFasterThanTheirRates) {
     session.fly(flownAt(time, 5000));
     const auto request = session.request(time, 640, 360);
     session.finished(resultCosting(i < 60 ? 50 : 5), time);
-    const double scale = request->decision.lodScale;
+    const double scale = request->levers.drawn.lodScale;
     EXPECT_LE(std::abs(std::log2(scale / last)), rowOf(Lever::lod_scale).ratePerS / 60 + 1e-9) << i;
-    EXPECT_LE(std::abs(request->renderScale - lastScale), rowOf(Lever::render_scale).ratePerS / 60 + 1e-9);
+    EXPECT_LE(std::abs(request->levers.drawn.renderScale - lastScale),
+              rowOf(Lever::render_scale).ratePerS / 60 + 1e-9);
     last = scale;
-    lastScale = request->renderScale;
+    lastScale = request->levers.drawn.renderScale;
     if (i == 59) {
       EXPECT_DOUBLE_EQ(scale, 4);
       EXPECT_DOUBLE_EQ(lastScale, 0.5);
@@ -192,9 +180,9 @@ TEST(PolicySession, aLeverThatFollowsTheLoadComesToRestWithTheView) {
       state.time = i / 60.0;
       session.fly(state);
       const auto request = session.request(state.time, 640, 360);
-      moves += request->renderScale != scale;
-      if (request->renderScale != scale) changedAt = i;
-      scale = request->renderScale;
+      moves += request->levers.drawn.renderScale != scale;
+      if (request->levers.drawn.renderScale != scale) changedAt = i;
+      scale = request->levers.drawn.renderScale;
       const double spike = random() % 40 == 0 ? 5 : 1;
       const double other = i > 600 ? 1.5 : 1;  // another program takes a part of the machine
       session.finished(
@@ -240,7 +228,7 @@ TEST(PolicySession, aTraceIsDecidedAgainToTheBit) {
   for (const TraceRow& row : *read) {
     replay.replay(row);
     ASSERT_EQ(replay.decision(), row.decision) << row.input.state.packet;
-    moved += row.decision.lodScale != 1;
+    moved += row.levers.policy.lodScale != 1;
   }
   EXPECT_GT(moved, 100u) << "the load must move a lever, or nothing is shown";
 }

@@ -244,7 +244,7 @@ TEST_F(PolicyPanelTest, leversAndSharesSayWhatTheRulesDo) {
   EXPECT_TRUE(test::eventually([&] {
     return levers()[1].contains(QStringLiteral("rule 1 75 %, rule 2 25 %"));
   })) << levers().join('\n').toStdString();
-  EXPECT_TRUE(levers()[1].startsWith(QStringLiteral("Allowed screen-space error 3.38 px")))
+  EXPECT_TRUE(levers()[1].startsWith(QStringLiteral("Allowed error 3.38 px")))
       << levers()[1].toStdString();
   EXPECT_TRUE(levers()[3].contains(QStringLiteral("rule 2 100 %"))) << levers()[3].toStdString();
   EXPECT_TRUE(levers()[6].contains(QStringLiteral("no rule sets it"))) << levers()[6].toStdString();

@@ -45,7 +45,7 @@ TEST_F(CullingDefects, areSoughtInTheSetsOfDrawnFrames) {
   use(test::syntheticMountains());
   std::size_t occluded = 0;
   for (auto& r : anyViews(48, 2)) {
-    r.decision.occlusionResolution = kBands[1];
+    r.levers.drawn.occlusion = kBands[1];
     for (const auto& choice : test::occlusionChoices()) {
       if (choice.method == OcclusionMethod::automatic) continue;
       r.occlusion = choice.method;

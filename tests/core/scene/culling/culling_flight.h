@@ -28,7 +28,7 @@ class CullingFlight : public SceneTest {
 
   void compare(FrameRequest r, OcclusionResolution size, Tally& tally) {
     FrameResult frustum, proposed;
-    r.decision.occlusionResolution = size;
+    r.levers.drawn.occlusion = size;
     r.occlusion = method_;
     r.method = CullingCase::none;
     const auto whole = picture(r);
@@ -65,7 +65,7 @@ class CullingFlight : public SceneTest {
           request(over(east, north, above), {Degrees{360 * unit(random)}, Degrees{pitch}, Degrees{roll}});
       if (i % 5 == 4) r.view.left = -0.2, r.view.right = 0.9, r.view.bottom = -0.6, r.view.top = 0.1;
       if (i % 11 == 7) r.view.left = -0.02, r.view.right = 0.02, r.view.bottom = -0.01, r.view.top = 0.01;
-      r.lod.screenSpaceError = Pixels{i % 4 == 0 ? 6.0 : i % 4 == 1 ? 0.5 : 2.0};
+      r.levers.drawn.errorPx = i % 4 == 0 ? 6.0 : i % 4 == 1 ? 0.5 : 2.0;
       compare(r, sizes[static_cast<std::size_t>(i) % sizes.size()], tally);
     }
     std::printf("%d views: %zu tiles by frustum, %zu proposed, %d tested, %d leave out over a fifth\n",
@@ -77,7 +77,7 @@ class CullingFlight : public SceneTest {
   void expectReasons() {
     const auto note = [this](const GeodeticPosition& eye) {
       auto r = request(eye, {Degrees{270}, Degrees{-5}, Degrees{0}});
-      r.decision.occlusionResolution = OcclusionResolution{320, 240};
+      r.levers.drawn.occlusion = OcclusionResolution{320, 240};
       r.occlusion = method_;
       const auto result = renderer.draw(r, offscreen->framebuffer());
       EXPECT_EQ(method_ == OcclusionMethod::horizon ? result.horizon : result.depthMap.has_value(),

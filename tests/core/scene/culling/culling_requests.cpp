@@ -59,12 +59,13 @@ std::vector<FrameRequest> CullingTruth::anyViews(int count, unsigned seed) const
     if (i % 5 == 4) v.left = -0.2, v.right = 0.9, v.bottom = -0.6, v.top = 0.1;
     if (i % 9 == 2) v.left = -1.7, v.right = 1.7, v.bottom = -1, v.top = 1;
     if (i % 11 == 7) v.left = -0.02, v.right = 0.02, v.bottom = -0.01, v.top = 0.01;
-    r.lod.screenSpaceError = Pixels{i % 16 == 1 ? 0.1 : i % 4 == 0 ? 6.0 : i % 4 == 1 ? 0.5 : 2.0};
-    r.staticLod.errorPx = r.lod.screenSpaceError;
+    r.levers.drawn.errorPx = i % 16 == 1 ? 0.1 : i % 4 == 0 ? 6.0 : i % 4 == 1 ? 0.5 : 2.0;
+    r.levers.drawn.treeErrorPx = r.levers.drawn.errorPx;
     if (i % 10 == 6) {
       const double farM = between(random, 3000, 20000);
       r.decision.weather = {
           .fogged = true, .visibilityM = farM, .extinctionPerM = 3.912 / farM, .farM = farM};
+      r.levers.drawn.farM = r.decision.weather.farM;
     }
     views.push_back(r);
   }
@@ -99,9 +100,9 @@ std::vector<FrameRequest> CullingTruth::flight(int frames, unsigned seed) const 
     auto r = viewOf(over(east, north, above),
                     {Degrees{head}, Degrees{leg % 4 == 2 ? -35.0 : -4.0}, Degrees{leg % 3 == 1 ? 30.0 : 0}});
     r.time = i / 60.0;
-    r.lod.screenSpaceError = Pixels{leg % 3 == 0 ? 0.5 : 2.0};
-    if (step >= legFrames() * 3 / 4) r.decision.lodScale = 2;
-    r.staticLod.errorPx = r.lod.screenSpaceError;
+    r.levers.drawn.errorPx = leg % 3 == 0 ? 0.5 : 2.0;
+    if (step >= legFrames() * 3 / 4) r.levers.drawn.lodScale = 2;
+    r.levers.drawn.treeErrorPx = r.levers.drawn.errorPx;
     path.push_back(r);
   }
   return path;
@@ -115,8 +116,8 @@ std::string CullingTruth::describe(const FrameRequest& r) {
       "far %g",
       r.eye.latitude.value(), r.eye.longitude.value(), r.eye.height.value(), r.attitude.heading.value(),
       r.attitude.pitch.value(), r.attitude.roll.value(), r.view.widthPx, r.view.heightPx, r.view.left,
-      r.view.right, r.view.bottom, r.view.top, r.lod.screenSpaceError.value(), r.decision.lodScale,
-      r.decision.weather.farM);
+      r.view.right, r.view.bottom, r.view.top, r.levers.drawn.errorPx, r.levers.drawn.lodScale,
+      r.levers.drawn.farM);
   return text;
 }
 

@@ -85,7 +85,7 @@ CullingTruth::View CullingTruth::truthOf(const FrameRequest& r, bool withPicture
   view.request = r;
   FrameRequest whole = r;
   whole.method = CullingCase::none;
-  whole.decision.occlusionResolution.reset();
+  whole.levers.drawn.occlusion.reset();
   FrameResult result = draw(whole, withPicture);
   view.cut = result.visible.tiles.size();
   EXPECT_EQ(view.cut + result.visible.beyondVisibility, result.tilesInCut) << describe(r);
@@ -118,7 +118,7 @@ CullingTruth::View CullingTruth::truthOf(const FrameRequest& r, bool withPicture
   FrameRequest frustum = r;
   frustum.method = CullingCase::view_frustum;
   frustum.backFaces = false;
-  frustum.decision.occlusionResolution.reset();
+  frustum.levers.drawn.occlusion.reset();
   result = draw(frustum, false);
   view.frustum = view.hidden = result.visible.tiles.size();
   const auto drawn = nodesOf(result.visible);
@@ -137,7 +137,7 @@ void CullingTruth::compare(const View& view, CullingCase culling, OcclusionMetho
   FrameRequest r = view.request;
   r.method = culling;
   r.occlusion = method;
-  r.decision.occlusionResolution = band;
+  r.levers.drawn.occlusion = band;
   const auto result = draw(r, wholly);
   const auto drawn = nodesOf(result.visible);
   std::size_t nodes = 0, pixels = 0;

@@ -42,13 +42,13 @@ TEST_F(CullingTwist, losesNothingWhileLevelsChangeInFlight) {
     for (int at = 0; at < kFrames; ++at) highest = std::max(highest, place(at).height);
     auto r = viewOf(place(step), {Degrees{90 + 40 * std::sin(0.1 * i)}, Degrees{-3}, Degrees{0}});
     r.eye.height = highest + Metres{30.0 + 60 * (leg % 5)};
-    r.lod.screenSpaceError = Pixels{0.5};
+    r.levers.drawn.errorPx = 0.5;
     const View view = truthOf(r, false);
     changes += view.cut != cut;
     cut = view.cut;
     r.method = CullingCase::proposed;
     r.occlusion = OcclusionMethod::horizon;
-    r.decision.occlusionResolution = OcclusionResolution{400, 300};
+    r.levers.drawn.occlusion = OcclusionResolution{400, 300};
     const auto result = renderer.draw(r, offscreen->framebuffer());
     std::set<std::uint32_t> drawn;
     for (const TileDraw& patch : result.visible.tiles) drawn.insert(patch.node);

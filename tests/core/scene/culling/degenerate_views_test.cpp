@@ -141,12 +141,13 @@ class DegenerateViews : public test::CullingTruth {
       r.attitude.pitch = Degrees{-90};
     });
     for (const double error : {0.0, 1e-12, 1e12, kInfinity, kNan, -1.0})
-      add("error of levels", [error](R& r) { r.lod.screenSpaceError = r.staticLod.errorPx = Pixels{error}; });
+      add("error of levels", [error](R& r) { r.levers.drawn.errorPx = r.levers.drawn.treeErrorPx = error; });
     for (const double scale : {1e-9, 1e9, kNan})
-      add("scale of levels", [scale](R& r) { r.decision.lodScale = scale; });
+      add("scale of levels", [scale](R& r) { r.levers.drawn.lodScale = scale; });
     for (const double far : {0.0, 1e-3, kNan})
       add("visibility", [far](R& r) {
         r.decision.weather = {.fogged = true, .visibilityM = far, .extinctionPerM = 1e-3, .farM = far};
+        r.levers.drawn.farM = r.decision.weather.farM;
       });
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 720}, {1280, 1}})
       add("picture", [=](R& r) { r.view.widthPx = width, r.view.heightPx = height; });
@@ -170,7 +171,7 @@ class DegenerateViews : public test::CullingTruth {
         auto r = whole;
         r.method = culling;
         r.occlusion = method;
-        r.decision.occlusionResolution = kBand;
+        r.levers.drawn.occlusion = kBand;
         ASSERT_EQ(differing(unculled, picture(r)), 0u) << how;
         ASSERT_EQ(renderer.readNodes(), nodes) << how;
       };
@@ -179,7 +180,7 @@ class DegenerateViews : public test::CullingTruth {
       // Nothing of it stays behind, whatever is kept from frame to frame.
       auto after = good;
       after.staticLod.terrain = form;
-      after.decision.occlusionResolution = kBand;
+      after.levers.drawn.occlusion = kBand;
       for (const OcclusionMethod method : {OcclusionMethod::automatic, OcclusionMethod::horizon}) {
         after.occlusion = method;
         const auto again = picture(after);
@@ -256,7 +257,7 @@ TEST_F(DegenerateViews, ofNoTerrainAreSky) {
     for (const auto& choice : test::occlusionChoices()) {
       auto r = request;
       r.occlusion = choice.method;
-      r.decision.occlusionResolution = kBand;
+      r.levers.drawn.occlusion = kBand;
       FrameResult result;
       picture(r, &result);
       ASSERT_TRUE(result.visible.tiles.empty()) << name;

@@ -52,7 +52,7 @@ TEST_F(DrawOrder, ofTilesAtTheSameDepthDoesNotDependOnWhatIsLeftOut) {
     auto r =
         request(over(place(random), place(random), 40 * std::pow(100, unit(random))),
                 {Degrees{360 * unit(random)}, Degrees{10 - 60 * unit(random)}, Degrees{30 * unit(random)}});
-    r.lod.screenSpaceError = Pixels{i % 2 ? 0.5 : 8.0};
+    r.levers.drawn.errorPx = i % 2 ? 0.5 : 8.0;
     FrameResult result;
     r.method = CullingCase::none;
     const auto whole = picture(r, &result);

@@ -28,7 +28,7 @@ class MultiDraw : public test::SceneTest {
                   {Degrees{360 * unit(random)}, Degrees{10 - 50 * unit(random)}, Degrees{20 * unit(random)}});
       r.staticLod.terrain = form;
       r.waitForPages = true;
-      r.decision.occlusionResolution = OcclusionResolution{320, 240};
+      r.levers.drawn.occlusion = OcclusionResolution{320, 240};
       r.overlays.colourByLevel = i == 3;
       r.overlays.wireframe = i == 4;
       r.overlays.colourByReason = i == 5;

@@ -21,13 +21,13 @@ inline double geometricBoundPx(const FrameRequest& request) {
                up = std::max(std::abs(v.bottom), std::abs(v.top));
   if (request.staticLod.terrain == TerrainForm::patches && !asksForTrees(request))
     return std::numeric_limits<double>::infinity();
-  double cutPx = request.lod.screenSpaceError.value() * request.decision.lodScale;
+  double cutPx = request.levers.drawn.errorPx * request.levers.drawn.lodScale;
   if (asksForTrees(request)) {
     const StaticLodParameters& s = request.staticLod;
     if (s.error != ErrorMeasure::maximum || request.overlays.treeDepth >= 0)
       return std::numeric_limits<double>::infinity();
     const double scale = pixelsPerRadian(v);
-    cutPx = scale / staticLodDistancePerError(s, request.decision.lodScale, scale);
+    cutPx = scale / staticLodDistancePerError(s, request.levers.drawn.lodScale, scale);
   }
   return cutPx * std::sqrt(1 + across * across + up * up) + 1.5;
 }
@@ -53,7 +53,7 @@ class ErrorMeterTest : public SceneTest {
   /// Low in the mountains, where much is hidden.
   FrameRequest lowRequest(double heading = 30) const {
     auto r = request(over(0.45, 0.4, 130), {Degrees{heading}, Degrees{-5}, Degrees{}});
-    r.decision.occlusionResolution = OcclusionResolution{320, 240};
+    r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     return r;
   }
   /// A view along a flight of views that look anywhere, most of them low.
@@ -63,7 +63,7 @@ class ErrorMeterTest : public SceneTest {
     auto r = request(over(east, place(random), above),
                      {Degrees{360 * unit(random)}, Degrees{-25 + 30 * unit(random)},
                       Degrees{unit(random) < 0.3 ? 360 * unit(random) : 0}});
-    r.decision.occlusionResolution = OcclusionResolution{320, 240};
+    r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     return r;
   }
   FrameError measure(const FrameRequest& r, const FrameRequest* before = nullptr,

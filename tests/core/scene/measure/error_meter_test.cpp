@@ -21,10 +21,10 @@ class ErrorMeter : public test::ErrorMeterTest {
     double largest = 0, share = 0;
     for (int i = 0; i < views; ++i) {
       auto r = anyRequest(random);
-      r.lod.screenSpaceError = r.staticLod.errorPx = Pixels{boundPx};
+      r.levers.drawn.errorPx = r.levers.drawn.treeErrorPx = boundPx;
       r.staticLod.terrain = form;
       r.staticLod.error = ErrorMeasure::maximum;
-      r.decision.lodScale = lodScale;
+      r.levers.drawn.lodScale = lodScale;
       const FrameError error = measure(r);
       EXPECT_EQ(error.wronglyCulledPixels, 0u) << "view " << i;
       EXPECT_LE(error.geometricMaxPx, test::geometricBoundPx(r)) << "view " << i;
@@ -67,7 +67,7 @@ TEST_F(ErrorMeter, findsNothingWhereNothingIsLost) {
   measureOver(test::syntheticMountains());
   auto r = lowRequest(), before = lowRequest(29.5);
   for (auto* frame : {&r, &before}) {
-    frame->lod.screenSpaceError = Pixels{1e-6};
+    frame->levers.drawn.errorPx = 1e-6;
     frame->exactSlivers = true;  // as the meter draws
   }
   before.time = -1.0 / 60;
@@ -133,7 +133,7 @@ TEST_F(ErrorMeter, aCoarserPictureIsFartherFromTheReference) {
   auto r = lowRequest();
   FrameError last;
   for (const double bound : {2.0, 8.0, 32.0}) {
-    r.lod.screenSpaceError = Pixels{bound};
+    r.levers.drawn.errorPx = bound;
     const FrameError error = measure(r);
     if (bound > 2) {
       EXPECT_GT(error.geometricMeanPx, last.geometricMeanPx);
@@ -151,8 +151,8 @@ TEST_F(ErrorMeter, showsTheBlurThatTheFramesBeforeLeave) {
   for (int i = 0; i < 6; ++i) {
     auto r = lowRequest(30 + 2.0 * i);
     r.time = 100 + i / 60.0;
-    r.decision.motion.blur.strength = i == 0 ? 0 : 0.6;
-    r.lod.screenSpaceError = Pixels{1e-6};
+    r.levers.drawn.blurStrength = i == 0 ? 0 : 0.6;
+    r.levers.drawn.errorPx = 1e-6;
     r.exactSlivers = true;  // as the meter draws
     frames.push_back(r);
   }
@@ -177,8 +177,9 @@ TEST_F(ErrorMeter, showsTheBlurThatTheFramesBeforeLeave) {
 TEST_F(ErrorMeter, tellsTheWeathersCutByColoursAndNotByDepths) {
   measureOver(test::syntheticMountains());
   auto r = lowRequest();
-  r.lod.screenSpaceError = Pixels{1e-6};
+  r.levers.drawn.errorPx = 1e-6;
   r.decision.weather = {.fogged = true, .visibilityM = 6000, .extinctionPerM = 2.5e-4, .farM = 6000};
+  r.levers.drawn.farM = r.decision.weather.farM;
   scene::ErrorPictures pictures;
   const FrameError error = measure(r, nullptr, &pictures);
   EXPECT_GT(pictures.drawn.visible.beyondVisibility, 0u);
@@ -187,7 +188,7 @@ TEST_F(ErrorMeter, tellsTheWeathersCutByColoursAndNotByDepths) {
   EXPECT_LT(error.geometricMaxPx, 0.5);
   EXPECT_LT(error.psnrDb, 60);
   EXPECT_GT(error.flip, 0);
-  r.decision.weather.farM = WeatherDecision::kUnlimited;
+  r.levers.drawn.farM = WeatherDecision::kUnlimited;
   EXPECT_EQ(measure(r).flip, 0) << "the fog is the reference's too";
 }
 
@@ -196,7 +197,7 @@ TEST_F(ErrorMeter, popIsChangeThatTheReferenceDoesNotShow) {
   auto before = lowRequest(), r = before;
   r.time = 1.0 / 60;
   EXPECT_EQ(measure(r, &before).pop, 0) << "nothing changes";
-  r.decision.lodScale = 16;
+  r.levers.drawn.lodScale = 16;
   const double pop = measure(r, &before).pop;
   EXPECT_GT(pop, 0) << "levels change while the view stands still";
   EXPECT_TRUE(std::isnan(measure(r).pop));
@@ -248,7 +249,7 @@ TEST_F(ErrorMeter, repeatsExactlyInAnyOrder) {
     before.time = 50 + i;
     r.time = before.time + 1.0 / 60;
     before.attitude.heading = before.attitude.heading + Degrees{1.5};
-    if (i % 2) before.decision.motion.blur.strength = r.decision.motion.blur.strength = 0.5;
+    if (i % 2) before.levers.drawn.blurStrength = r.levers.drawn.blurStrength = 0.5;
     if (i % 3 == 2)
       r.decision.weather = before.decision.weather = {.precipitation = Precipitation::rain,
                                                       .density = 0.5,
@@ -256,7 +257,8 @@ TEST_F(ErrorMeter, repeatsExactlyInAnyOrder) {
                                                       .visibilityM = 9000,
                                                       .extinctionPerM = 4e-4,
                                                       .farM = 8000};
-    r.lod.screenSpaceError = Pixels{4.0 + i};
+    r.levers.drawn.farM = r.decision.weather.farM;
+    r.levers.drawn.errorPx = 4.0 + i;
     if (i == 3) r.view.widthPx = before.view.widthPx = 400;
     runs.push_back({before, r});
   }
@@ -280,13 +282,14 @@ TEST_F(ErrorMeter, whatFallsIsMeasuredAgainstItsOwnReference) {
   std::mt19937 random(6);
   auto r = anyRequest(random);
   r.time = 20;
-  r.lod.screenSpaceError = Pixels{6};
+  r.levers.drawn.errorPx = 6;
   r.decision.weather = {.precipitation = Precipitation::snow,
                         .density = 1,
                         .fogged = true,
                         .visibilityM = 9000,
                         .extinctionPerM = 4e-4,
                         .farM = 8000};
+  r.levers.drawn.farM = r.decision.weather.farM;
   std::vector<FrameRequest> requests(6, r);
   requests[1].wind = {MetresPerSecond{40}, Degrees{90}, MetresPerSecond{}};
   requests[2].airDrift = {17, 5, 3};
@@ -313,9 +316,9 @@ TEST_F(ErrorMeter, repeatsExactlyWhereAHorizonHidesLittle) {
     auto r = request(over(0.45, 0.4, 2100 - 40.0 * i), {Degrees{30}, Degrees{-5}, {}});
     r.view.widthPx = 160, r.view.heightPx = 80;
     r.view.left = -2, r.view.right = 2, r.view.bottom = -1, r.view.top = 1;
-    r.decision.occlusionResolution = OcclusionResolution{320, 240};
+    r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     r.occlusion = OcclusionMethod::horizon;
-    r.lod.screenSpaceError = Pixels{0.02};
+    r.levers.drawn.errorPx = 0.02;
     requests.push_back(r);
   }
   std::vector<std::size_t> down, up;

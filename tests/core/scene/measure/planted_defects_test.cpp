@@ -51,7 +51,7 @@ TEST_F(PlantedDefects, findsATileThatIsLeftOut) {
 TEST_F(PlantedDefects, areNotTheReferences) {
   measureOver(test::syntheticMountains());
   auto r = lowRequest();
-  r.lod.screenSpaceError = Pixels{1e-6};
+  r.levers.drawn.errorPx = 1e-6;
   const auto reference = picture(scene::referenceOf(r));
   const std::uint32_t node = renderer.readNodes()[100 * kWidth + 320];
   ASSERT_NE(node, kSkyNode);
@@ -95,8 +95,8 @@ TEST_F(PlantedDefects, findsADepthMapThatIsReadATexelAside) {
   measureOver(terrainOf(twoRidges));
   // On its side, so that aside is down: what the near ridge hides reaches a texel higher.
   auto r = request(over(0.5, 0.06, 60), {Degrees{}, Degrees{}, Degrees{90}});
-  r.decision.occlusionResolution = OcclusionResolution{64, 48};
-  r.lod.screenSpaceError = Pixels{1e-6};
+  r.levers.drawn.occlusion = OcclusionResolution{64, 48};
+  r.levers.drawn.errorPx = 1e-6;
   for (const int shift : {0, 1, 0}) {
     plant(meter, {.depthMapShiftTexels = shift});
     scene::ErrorPictures pictures;

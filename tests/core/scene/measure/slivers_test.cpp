@@ -84,7 +84,7 @@ class SliversOver : public Slivers, public testing::WithParamInterface<const cha
     r.view.widthPx = kWide, r.view.heightPx = kHigh;
     r.staticLod.terrain = form;
     r.staticLod.error = ErrorMeasure::maximum;
-    r.lod.screenSpaceError = r.staticLod.errorPx = Pixels{2};
+    r.levers.drawn.errorPx = r.levers.drawn.treeErrorPx = 2;
     return r;
   }
   /// Whether something farther, or sky, shows beneath ground: where a package holds no scenery, or its

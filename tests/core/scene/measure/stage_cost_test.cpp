@@ -19,10 +19,10 @@ class StageCost : public SceneTest {
   /// Everything that a frame can be made to do.
   FrameRequest whole(double time) const {
     auto r = bare(time);
-    r.decision.occlusionResolution = OcclusionResolution{320, 240};
+    r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     r.decision.weather.precipitation = Precipitation::rain;
     r.decision.weather.density = 0.8;
-    r.decision.motion.blur.strength = 0.8;
+    r.levers.drawn.blurStrength = 0.8;
     TuningParameters p;
     p.symbology.enabled = true;
     r.symbology =
@@ -83,9 +83,8 @@ TEST_F(StageCost, isNotMeasuredWhereAStageIsNotRun) {
     void (*without)(FrameRequest&);
   } kCases[] = {
       {"all tiles are there", &FrameCost::page, [](FrameRequest&) {}},
-      {"scheme frustum", &FrameCost::occlusion,
-       [](FrameRequest& r) { r.decision.occlusionResolution.reset(); }},
-      {"at rest", &FrameCost::blur, [](FrameRequest& r) { r.decision.motion.blur.strength = 0; }},
+      {"scheme frustum", &FrameCost::occlusion, [](FrameRequest& r) { r.levers.drawn.occlusion.reset(); }},
+      {"at rest", &FrameCost::blur, [](FrameRequest& r) { r.levers.drawn.blurStrength = 0; }},
       {"clear air", &FrameCost::weather,
        [](FrameRequest& r) { r.decision.weather.precipitation = Precipitation::none; }},
       {"no symbols", &FrameCost::symbology, [](FrameRequest& r) { r.symbology.reset(); }},
@@ -146,7 +145,7 @@ TEST_F(StageCost, growsWithTheWorkOfItsStage) {
   more.decision.weather.density = 1;
   EXPECT_GT(least(more, &FrameCost::weather), 2 * least(less, &FrameCost::weather));
   less = bare(0), more = bare(0);
-  less.decision.motion.blur.strength = more.decision.motion.blur.strength = 0.8;
+  less.levers.drawn.blurStrength = more.levers.drawn.blurStrength = 0.8;
   more.view.widthPx *= 2, more.view.heightPx *= 2;
   less.view.widthPx /= 4, less.view.heightPx /= 4;
   EXPECT_GT(least(more, &FrameCost::blur), 3 * least(less, &FrameCost::blur)) << "64 times the pixels";

@@ -57,7 +57,7 @@ TEST_F(HorizonScene, losesPixelsWhereLinesReachTooHigh) {
 TEST_F(HorizonScene, isNotBuiltAgainWhileOnlyTheHeadTurns) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 200), {});
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   r.occlusion = OcclusionMethod::horizon;
   FrameResult result;
   for (int i = 0; i < 12; ++i) {
@@ -76,10 +76,10 @@ TEST_F(HorizonScene, isNotBuiltAgainWhileOnlyTheHeadTurns) {
   r.eye.height = r.eye.height + Metres{1};
   picture(r, &result);
   EXPECT_EQ(result.counters.horizonsBuilt, 3u);
-  r.decision.occlusionResolution = OcclusionResolution{800, 600};
+  r.levers.drawn.occlusion = OcclusionResolution{800, 600};
   picture(r, &result);
   EXPECT_EQ(result.counters.horizonsBuilt, 4u) << "the band sets its resolution";
-  r.decision.occlusionResolution.reset();
+  r.levers.drawn.occlusion.reset();
   picture(r, &result);
   EXPECT_FALSE(result.horizon);
   EXPECT_TRUE(std::isnan(result.cost.occlusion));
@@ -95,9 +95,9 @@ TEST_F(HorizonScene, isNeitherBuiltNorMovedForAHeadThatTurns) {
       else
         use(test::syntheticMountains());
       auto r = request(over(0.44, 0.5, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
-      r.decision.occlusionResolution = OcclusionResolution{320, 240};
+      r.levers.drawn.occlusion = OcclusionResolution{320, 240};
       r.occlusion = method;
-      r.lod.screenSpaceError = Pixels{0.5};
+      r.levers.drawn.errorPx = 0.5;
       r.reproducible = r.waitForPages = true;
       FrameResult first, result;
       picture(r, &first);
@@ -119,7 +119,7 @@ TEST_F(HorizonScene, isNeitherBuiltNorMovedForAHeadThatTurns) {
 TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 3000), {Degrees{40}, Degrees{-15}, {}});
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   r.occlusion = OcclusionMethod::horizon;
   FrameResult result;
   const auto draw = [&](std::uint64_t built, std::uint64_t leftOut, const char* what) {
@@ -153,7 +153,7 @@ TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
   draw(2, 3, "51 m on");
   r.eye.height = start + Metres{70};
   draw(2, 4, "19 m from there");
-  r.lod.screenSpaceError = Pixels{3.5};
+  r.levers.drawn.errorPx = 3.5;
   draw(3, 4, "other levels");
   r.skips.littleHidden = false;
   r.eye.height = start + Metres{75};
@@ -168,9 +168,9 @@ TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
 TEST_F(HorizonScene, isUsedOnceAnEyeAtRestHasABetterOne) {
   use(test::syntheticMountains());
   auto r = request({}, {Degrees{40}, Degrees{-10}, Degrees{0}});
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   r.occlusion = OcclusionMethod::horizon;
-  r.lod.screenSpaceError = Pixels{0.1};
+  r.levers.drawn.errorPx = 0.1;
   r.skips.littleHidden = false;
   r.waitForPages = true;
   FrameResult flying, resting, anew;
@@ -237,9 +237,9 @@ TEST_F(HorizonScene, hidesMoreAtTheSizeOfAHigherBand) {
   for (std::size_t k = 0; k < kWidths.size(); ++k)
     for (int i = 0; i < 8; ++i) {
       auto r = request(over(0.3 + 0.05 * i, 0.6 - 0.04 * i, 120), {Degrees{45.0 * i}, Degrees{-3}, {}});
-      r.lod.screenSpaceError = Pixels{0.25};
+      r.levers.drawn.errorPx = 0.25;
       r.occlusion = OcclusionMethod::horizon;
-      r.decision.occlusionResolution = OcclusionResolution{kWidths[k], kWidths[k] * 3 / 4};
+      r.levers.drawn.occlusion = OcclusionResolution{kWidths[k], kWidths[k] * 3 / 4};
       FrameResult result;
       picture(r, &result);
       occluded[k] += result.visible.occluded;

@@ -52,7 +52,7 @@ TEST_F(MapScene, leavesNoPixelOfPatchesOut) {
                       Degrees{i % 3 == 0 ? 360 * unit(random) : 0}});
     r.staticLod.terrain = TerrainForm::patches;
     r.waitForPages = true;
-    r.lod.screenSpaceError = Pixels{i % 2 == 0 ? 0.25 : 1.0};
+    r.levers.drawn.errorPx = i % 2 == 0 ? 0.25 : 1.0;
     compare(r, kSizes[static_cast<std::size_t>(i) % kSizes.size()], tally);
   }
   std::printf("%zu patches by frustum, %zu proposed, %d tested\n", tally.frustum, tally.proposed,
@@ -65,7 +65,7 @@ TEST_F(MapScene, leavesNoPixelOfPatchesOut) {
 TEST_F(MapScene, showsItsMapAsGreys) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 400), {Degrees{20}, Degrees{-10}, Degrees{0}});
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::depth_map}) {
     r.occlusion = method;
     FrameResult result;

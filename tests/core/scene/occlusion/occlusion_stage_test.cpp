@@ -38,9 +38,9 @@ class OcclusionStage : public test::SceneTest {
  protected:
   FrameRequest low(double heading, OcclusionMethod method) const {
     auto r = request(over(0.5, 0.5, 120), {Degrees{heading}, Degrees{-3}, Degrees{0}});
-    r.decision.occlusionResolution = OcclusionResolution{400, 300};
+    r.levers.drawn.occlusion = OcclusionResolution{400, 300};
     r.occlusion = method;
-    r.lod.screenSpaceError = Pixels{1};
+    r.levers.drawn.errorPx = 1;
     r.waitForPages = true;
     return r;
   }
@@ -122,10 +122,10 @@ TEST_F(OcclusionStage, keepsTheVisibleSetWhileNothingInItCanChange) {
       changes("a roll", [](auto& c) { c.attitude.roll = Degrees{1}; });
       changes("a step", [](auto& c) { c.eye.height = c.eye.height + Metres{0.5}; });
       changes("a zoom", [](auto& c) { c.view.right *= 0.9; });
-      changes("other levels", [](auto& c) { c.lod.screenSpaceError = Pixels{6}; });
+      changes("other levels", [](auto& c) { c.levers.drawn.errorPx = 6; });
       changes("another case", [](auto& c) { c.method = CullingCase::view_frustum; });
-      changes("another band", [](auto& c) { c.decision.occlusionResolution = OcclusionResolution{64, 48}; });
-      changes("scheme frustum", [](auto& c) { c.decision.occlusionResolution.reset(); });
+      changes("another band", [](auto& c) { c.levers.drawn.occlusion = OcclusionResolution{64, 48}; });
+      changes("scheme frustum", [](auto& c) { c.levers.drawn.occlusion.reset(); });
       changes("no back faces", [](auto& c) { c.backFaces = false; });
       changes("another way", [method](auto& c) {
         c.occlusion =
@@ -144,7 +144,7 @@ TEST_F(OcclusionStage, looksForNothingInSchemeFrustumUnlessAskedTo) {
         auto r = low(90.0 * i, method);
         r.eye = over(0.5, 0.5, 40);
         r.reproducible = true;
-        r.decision.occlusionResolution.reset();
+        r.levers.drawn.occlusion.reset();
         FrameResult skipped, done;
         const auto drawn = picture(r, &skipped);
         EXPECT_FALSE(skipped.occlusion.has_value());
@@ -173,7 +173,7 @@ TEST_F(OcclusionStage, drawsNoMapNearWhereOneHidNextToNothing) {
   EXPECT_EQ(second.counters.mapsLeftOut, first.counters.mapsLeftOut + 1);
   EXPECT_EQ(second.counters.occlusionsLeftOut, first.counters.occlusionsLeftOut)
       << "the method is worth its cost";
-  EXPECT_EQ(first.depthMap, r.decision.occlusionResolution);
+  EXPECT_EQ(first.depthMap, r.levers.drawn.occlusion);
   EXPECT_EQ(second.occlusion, OcclusionMethod::cpu_map);
   for (int i = 0; i < 2; ++i) {
     EXPECT_FALSE(second.depthMap) << "none had a part in what is drawn";

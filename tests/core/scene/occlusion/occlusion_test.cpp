@@ -64,7 +64,7 @@ TEST_F(Occlusion, isSkippedWhereTheDecisionAsksForNone) {
   EXPECT_EQ(result.counters.depthMapsDrawn, 0u);
   EXPECT_TRUE(std::isnan(result.cost.occlusion));
   EXPECT_EQ(renderer.readDepthMap().width, 0);
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   result = renderer.draw(r, offscreen->framebuffer());
   EXPECT_EQ(result.counters.depthMapsDrawn, 1u);
   EXPECT_GT(result.cost.occlusion, 0);
@@ -76,7 +76,7 @@ TEST_F(Occlusion, isSkippedWhereTheDecisionAsksForNone) {
 TEST_F(Occlusion, showsItsDepthMapAsGreys) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 400), {Degrees{20}, Degrees{-10}, Degrees{0}});
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   ASSERT_TRUE(renderer.draw(r, offscreen->framebuffer()).depthMap.has_value());
   const auto grey = renderer.readDepthMap();
   ASSERT_EQ(grey.width, 320);

@@ -75,7 +75,7 @@ TEST_F(BoundedPrecipitation, leavesNothingBehindWhenItStops) {
   for (const Precipitation kind : kKinds) {
     auto r = falling(kind, 1);
     r.method = CullingCase::proposed;
-    r.decision.occlusionResolution = OcclusionResolution{320, 240};
+    r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     r.overlays.tileBounds = true;
     const Pixels8 before = picture(dry(r));
     const auto metres = renderer.readDistances();
@@ -124,7 +124,7 @@ TEST_F(BoundedPrecipitation, looksAboutAsDenseAtAnyShareAndRenderScale) {
       auto r = falling(kind, density);
       const double whole = seen(r);
       for (const double share : {0.75, 0.5, 0.25}) {
-        r.particleShare = share;
+        r.levers.drawn.particleShare = share;
         const double least = kind == Precipitation::rain ? 0.6 : 0.15 + 0.75 * share;
         const double left = seen(r) / whole;
         std::printf("%s of %g: %.2f at share %g\n", kind == Precipitation::rain ? "rain" : "snow", density,
@@ -132,17 +132,17 @@ TEST_F(BoundedPrecipitation, looksAboutAsDenseAtAnyShareAndRenderScale) {
         EXPECT_GT(left, least) << share;
         EXPECT_LT(left, 1.3) << share;
       }
-      r.particleShare = 0;
+      r.levers.drawn.particleShare = 0;
       EXPECT_EQ(seen(r), 0);
-      r.particleShare = 1;
+      r.levers.drawn.particleShare = 1;
       for (const double scale : {0.7, 0.5}) {
-        r.renderScale = scale;
+        r.levers.drawn.renderScale = scale;
         const double left = seen(r) / whole;
         std::printf("%s of %g: %.2f at render scale %g\n", kind == Precipitation::rain ? "rain" : "snow",
                     density, left, scale);
         EXPECT_NEAR(left, 1, 0.45) << scale;
       }
-      r.renderScale = 1;
+      r.levers.drawn.renderScale = 1;
       EXPECT_EQ(seen(r), whole);
     }
 }
@@ -251,9 +251,9 @@ TEST_F(BoundedPrecipitation, countsAShareThatIsLeftOutAsError) {
   meter.setTerrain(database);
   auto r = falling(Precipitation::snow, 1);
   const double whole = meter.measure(r, nullptr, nullptr).flip;
-  r.particleShare = 0.25;
+  r.levers.drawn.particleShare = 0.25;
   EXPECT_GT(meter.measure(r, nullptr, nullptr).flip, whole + 0.005);
-  r.particleShare = 1;
+  r.levers.drawn.particleShare = 1;
   r.precipitationForm = PrecipitationForm::effect;
   EXPECT_LT(meter.measure(r, nullptr, nullptr).flip, whole + 0.005) << "a reference of the other form";
   meter.release();

@@ -76,6 +76,7 @@ class HazeLayerPicture : public SceneTest {
     const double top = random() % 3 == 0 ? between(0, highest) : between(highest, 3 * highest + 3000);
     const double visibility = std::exp(between(std::log(50), std::log(100e3)));
     r.decision.weather = hazeAt(r.eye.height, visibility, top, database->highest());
+    r.levers.drawn.farM = r.decision.weather.farM;
     return r;
   }
 
@@ -88,7 +89,7 @@ class HazeLayerPicture : public SceneTest {
       const FrameRequest r = anyView(random);
       FrameResult result;
       ++seen.views;
-      if (std::isinf(r.decision.weather.farM)) continue;
+      if (std::isinf(r.levers.drawn.farM)) continue;
       const auto error = scene::cutError(renderer, r, offscreen->framebuffer());
       picture(r, &result);
       seen.cut += result.visible.beyondVisibility > 0;
@@ -119,6 +120,7 @@ TEST_F(HazeLayerPicture, isTheOpticalDepthAtEveryPixelOfTheGround) {
     for (const double visibility : {300.0, 3000.0, 40e3})
       for (const double top : {r.eye.height.value() - 800, r.eye.height.value() + 20, 6000.0}) {
         r.decision.weather = hazeAt(r.eye.height, visibility, top, {}, RatioMode::off);
+        r.levers.drawn.farM = r.decision.weather.farM;
         const auto fog = scene::airOf(r.decision.weather, r.levers.drawn.farM).colour;
         const Pixels8 shown = picture(r);
         std::size_t wrong = 0;
@@ -145,6 +147,7 @@ TEST_F(HazeLayerPicture, endsInTheSkyWhereTheLayerEnds) {
   for (const double visibility : {2000.0, 20e3})
     for (const double top : {r.eye.height.value() - 100, r.eye.height.value() + 500}) {
       r.decision.weather = hazeAt(r.eye.height, visibility, top, {}, RatioMode::off);
+      r.levers.drawn.farM = r.decision.weather.farM;
       const auto fog = scene::airOf(r.decision.weather, r.levers.drawn.farM).colour;
       const Pixels8 shown = picture(r);
       for (std::size_t i = 0; i < metres.size(); ++i) {
@@ -167,6 +170,7 @@ TEST_F(HazeLayerPicture, hasNoSeamBetweenFoggedGroundAndTheSky) {
       for (const double visibility : {50.0, 3000.0, 10e3, 30e3, 100e3}) {
         auto r = level(above, 0);
         r.decision.weather = hazeAt(r.eye.height, visibility, top, database->highest());
+        r.levers.drawn.farM = r.decision.weather.farM;
         const Pixels8 shown = picture(r);
         const auto metres = renderer.readDistances();
         int sky = 0;
@@ -192,7 +196,7 @@ TEST_F(HazeLayerPicture, isTheSameInAllThreeCullingCases) {
   std::size_t beyond = 0;
   for (int i = 0; i < 5; ++i) {
     auto r = anyView(random);
-    r.decision.occlusionResolution = OcclusionResolution{400, 300};
+    r.levers.drawn.occlusion = OcclusionResolution{400, 300};
     r.method = CullingCase::none;
     const Pixels8 whole = picture(r);
     for (const CullingCase method : {CullingCase::view_frustum, CullingCase::proposed}) {
@@ -231,13 +235,16 @@ TEST_F(HazeLayerPicture, isDefinedForLayersThatAreNone) {
   w.extinctionPerM = std::numeric_limits<double>::infinity();
   w.safeFarM = w.farM = 0;
   r.decision.weather = w;
+  r.levers.drawn.farM = r.decision.weather.farM;
   const Pixels8 nothing = picture(r);
   for (std::size_t i = 1; i < nothing.size() / 4; ++i) ASSERT_LE(largestStep(nothing, 0, i), 1);
   // No ray of the view meets a layer far below the ground.
   r.decision.weather = hazeAt(r.eye.height, 1000, -100e3, {});
+  r.levers.drawn.farM = r.decision.weather.farM;
   EXPECT_EQ(r.decision.weather.farReason, FarReason::unbounded);
   picture(r);
   r.decision.weather = hazeAt(r.eye.height, std::numeric_limits<double>::infinity(), 3000, {});
+  r.levers.drawn.farM = r.decision.weather.farM;
   EXPECT_EQ(differing(clear, picture(r)), 0u);
 }
 

@@ -15,10 +15,11 @@ TEST_F(NodePass, givesEachPixelToTheTileWithoutWhichItChanges) {
   use(test::syntheticMountains());
   auto r = request(over(0.4, 0.5, 150), {Degrees{40}, Degrees{-6}, Degrees{17}});
   for (const double error : {0.1, 4.0}) {
-    r.lod.screenSpaceError = Pixels{error};
+    r.levers.drawn.errorPx = error;
     compareWithLeavingOut(r, 24);
   }
   r.decision.weather = {.fogged = true, .visibilityM = 6000, .extinctionPerM = 6e-4, .farM = 6000};
+  r.levers.drawn.farM = r.decision.weather.farM;
   compareWithLeavingOut(r, 12);
 }
 
@@ -26,7 +27,7 @@ TEST_F(NodePass, givesEachPixelToTheNodeOfStaticTreesWithoutWhichItChanges) {
   use(std::make_shared<const test::TreeTerrain>(test::syntheticMountains()));
   auto r = request(over(0.4, 0.5, 150), {Degrees{40}, Degrees{-6}, Degrees{}});
   r.staticLod.terrain = TerrainForm::static_trees;
-  r.staticLod.errorPx = Pixels{4};
+  r.levers.drawn.treeErrorPx = 4;
   r.method = CullingCase::view_frustum;
   compareWithLeavingOut(r, 24);
 }
@@ -38,7 +39,7 @@ TEST_F(NodePass, withoutCullingIsThePictureWithoutCulling) {
   for (int i = 0; i < 8; ++i) {
     auto r = request(over(place(random), place(random), 60 + 1500 * unit(random)),
                      {Degrees{360 * unit(random)}, Degrees{-50 * unit(random)}, Degrees{360 * unit(random)}});
-    r.decision.occlusionResolution = OcclusionResolution{320, 240};
+    r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     picture(r);
     const auto unculled = renderer.readNodes(true);
     r.method = CullingCase::none;

@@ -19,13 +19,13 @@ class PostPasses : public SceneTest {
   FrameRequest uniform(double time, double strength) {
     auto r = request({Degrees{0}, Degrees{0}, Metres{100}}, {Degrees{0}, Degrees{80}, Degrees{0}});
     r.time = time;
-    r.decision.motion.blur.strength = strength;
+    r.levers.drawn.blurStrength = strength;
     return r;
   }
   FrameRequest ofMountains(double heading, double time, double strength) {
     auto r = request(over(0.4, 0.4, 400), {Degrees{heading}, Degrees{-8}, Degrees{5}});
     r.time = time;
-    r.decision.motion.blur.strength = strength;
+    r.levers.drawn.blurStrength = strength;
     return r;
   }
   /// Where many pictures are drawn.
@@ -166,7 +166,7 @@ TEST_F(PostPasses, blurStartsAnewWhereTimeIsNoStep) {
   small.view.widthPx = 320;
   small.view.heightPx = 180;
   auto sharp = small;
-  sharp.decision.motion.blur.strength = 0;
+  sharp.levers.drawn.blurStrength = 0;
   EXPECT_EQ(differing(picture(small), picture(sharp)), 0u) << "another size";
 }
 

@@ -13,7 +13,6 @@ namespace {
 
 using Pixels8 = std::vector<std::uint8_t>;
 
-
 class Falling : public test::FallingScene {
  protected:
   Falling() : FallingScene(PrecipitationForm::effect) {}
@@ -32,10 +31,10 @@ class Falling : public test::FallingScene {
       r.attitude.heading = Degrees{30.0 * turn};
       double fine = 0.1, coarse = 50;
       for (int i = 0; i < 10; ++i) {
-        r.lod.screenSpaceError = Pixels{std::sqrt(fine * coarse)};
+        r.levers.drawn.errorPx = std::sqrt(fine * coarse);
         inView = static_cast<double>(renderer.draw(dry(r), offscreen->framebuffer()).visible.vertices);
         if (std::abs(inView - vertices) < 0.05 * vertices) return;
-        (inView > vertices ? fine : coarse) = r.lod.screenSpaceError.value();
+        (inView > vertices ? fine : coarse) = r.levers.drawn.errorPx;
       }
     }
     FAIL() << inView;
@@ -70,7 +69,7 @@ TEST_F(Falling, leavesNothingBehindWhenItStops) {
   for (const Precipitation kind : kKinds) {
     auto r = falling(kind, 0.5);
     r.method = CullingCase::proposed;
-    r.decision.occlusionResolution = OcclusionResolution{320, 240};
+    r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     r.overlays.tileBounds = true;
     const Pixels8 before = picture(dry(r));
     const Pixels8 wet = picture(r);
@@ -96,7 +95,7 @@ TEST_F(Falling, hidesNothingFromTheDepthMapAndDrawsNoDepth) {
     for (int i = 0; i < 4; ++i) {
       auto r = falling(kind, 0.7, 60 + 200 * i);
       r.attitude.heading = Degrees{70.0 * i};
-      r.decision.occlusionResolution = OcclusionResolution{400, 300};
+      r.levers.drawn.occlusion = OcclusionResolution{400, 300};
       picture(dry(r));
       const auto metres = renderer.readDistances();
       const Pixels8 frustum = picture(r);

@@ -19,7 +19,7 @@ class RenderScale : public test::SceneTest {
   }
   FrameRequest ofMountains(double scale) {
     auto r = request(over(0.4, 0.4, 400), {Degrees{30}, Degrees{-8}, Degrees{5}});
-    r.renderScale = scale;
+    r.levers.drawn.renderScale = scale;
     return r;
   }
 };
@@ -44,9 +44,8 @@ TEST_F(RenderScale, isTheSmallerImageScaledUpBetweenItsPixels) {
     const auto scaled = picture(ofMountains(scale));
     auto smaller = ofMountains(1);
     smaller.view = scaledShape(smaller.view, scale);
-    smaller.lod.screenSpaceError =
-        Pixels{smaller.lod.screenSpaceError.value() * pixelsPerRadian(smaller.view) /
-               pixelsPerRadian(ofMountains(1).view)};
+    smaller.levers.drawn.errorPx = Pixels{smaller.levers.drawn.errorPx * pixelsPerRadian(smaller.view) /
+                                          pixelsPerRadian(ofMountains(1).view)};
     const auto small = picture(smaller);
     double worst = 0;
     for (int y = 0; y < kHeight; ++y)
@@ -74,7 +73,7 @@ TEST_F(RenderScale, cullingChangesNoPixelOfIt) {
     auto unculled = ofMountains(scale), culled = ofMountains(scale);
     unculled.method = CullingCase::none;
     culled.decision.scheme = Scheme::dynamic;
-    culled.decision.occlusionResolution = OcclusionResolution{640, 480};
+    culled.levers.drawn.occlusion = OcclusionResolution{640, 480};
     for (const OcclusionMethod method : {OcclusionMethod::depth_map, OcclusionMethod::horizon}) {
       culled.occlusion = method;
       EXPECT_EQ(differing(picture(unculled), picture(culled)), 0u) << scale;
@@ -161,7 +160,7 @@ TEST_F(RenderScale, aShareOfTheParticlesDrawsFewerDrops) {
   r.decision.weather.density = 0.6;
   r.time = 3;
   const auto changed = [&](double share) {
-    r.particleShare = share;
+    r.levers.drawn.particleShare = share;
     return differing(clear, picture(r));
   };
   const std::size_t all = changed(1), half = changed(0.5);

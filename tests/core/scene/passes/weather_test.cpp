@@ -99,6 +99,7 @@ TEST_F(Weather, isTheFormulaAtEveryPixelOfTheGround) {
     const auto metres = renderer.readDistances();
     for (const double visibility : {50.0, 300.0, 2000.0, 9000.0, 40e3, 300e3}) {
       r.decision.weather = fog(visibility);
+      r.levers.drawn.farM = r.decision.weather.farM;
       const Pixels8 shown = picture(r);
       EXPECT_EQ(unlikeTheFormula(clear, shown, metres, r.decision.weather.extinctionPerM, kInfinity), 0u)
           << visibility << " m of visibility from " << above << " m";
@@ -117,6 +118,7 @@ TEST_F(Weather, isTheFormulaInTheSkyAndGreyAllOverInThickFog) {
   const auto metres = renderer.readDistances();
   for (const double visibility : {50.0, 2000.0, 20e3, 200e3}) {
     r.decision.weather = fog(visibility);
+    r.levers.drawn.farM = r.decision.weather.farM;
     const double extinction = r.decision.weather.extinctionPerM;
     const auto target = fogLevels(extinction);
     const Pixels8 shown = picture(r);
@@ -150,11 +152,12 @@ TEST_F(Weather, leavesNothingBehindInClearAir) {
   use(test::syntheticMountains());
   auto r = level(400);
   r.method = CullingCase::proposed;
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   const Pixels8 clear = picture(r);
   for (const double visibility : {50.0, 9000.0}) {
     auto foggy = r;
     foggy.decision.weather = fog(visibility, visibility);
+    foggy.levers.drawn.farM = foggy.decision.weather.farM;
     EXPECT_GT(differing(clear, picture(foggy)), 0u);
     EXPECT_EQ(differing(clear, picture(r)), 0u);
   }
@@ -166,9 +169,10 @@ TEST_F(Weather, isTheSamePictureInAllThreeCullingCases) {
   for (int i = 0; i < 12; ++i) {
     auto r =
         request(over(0.3 + 0.03 * i, 0.4, 60 + 90 * i), {Degrees{31.0 * i}, Degrees{-6}, Degrees{5.0 * i}});
-    r.decision.occlusionResolution = OcclusionResolution{400, 300};
+    r.levers.drawn.occlusion = OcclusionResolution{400, 300};
     const double farM = 6000 + 1500 * i;
     r.decision.weather = fog(farM, farM);
+    r.levers.drawn.farM = r.decision.weather.farM;
     r.method = CullingCase::none;
     FrameResult all, none;
     const Pixels8 whole = picture(r, &none);
@@ -192,6 +196,7 @@ TEST_F(Weather, showsTheSameRidgeAsClearAirUpToTheCutAndNothingBeyond) {
     picture(r);
     const auto clear = renderer.readDistances();
     r.decision.weather = fog(farM, farM);
+    r.levers.drawn.farM = r.decision.weather.farM;
     FrameResult result;
     const Pixels8 shown = picture(r, &result);
     const auto cut = renderer.readDistances();
@@ -228,6 +233,7 @@ TEST_F(Weather, hasNoLineAtTheHorizonAtAnyVisibility) {
       if (visibility > 0.7 * std::sqrt(2 * 6371e3 * above)) continue;
       auto r = level(above, 0, 0);
       r.decision.weather = fog(visibility, visibility);
+      r.levers.drawn.farM = r.decision.weather.farM;
       const Pixels8 shown = picture(r);
       const auto metres = renderer.readDistances();
       int sky = 0;
@@ -251,6 +257,7 @@ TEST_F(Weather, changesNoPixelByMoreThanItsThreshold) {
   auto r = level(120);
   const auto error = [&](double visibility, double farM) {
     r.decision.weather = fog(visibility, farM);
+    r.levers.drawn.farM = r.decision.weather.farM;
     return scene::cutError(renderer, r, offscreen->framebuffer());
   };
   for (const double visibility : {1000.0, 5000.0, 15e3}) {
@@ -275,11 +282,14 @@ TEST_F(Weather, isDefinedAtVisibilitiesThatAreNone) {
   auto r = level(300);
   const Pixels8 clear = picture(r);
   r.decision.weather = fog(0, 0);
+  r.levers.drawn.farM = r.decision.weather.farM;
   const Pixels8 nothing = picture(r);
   for (std::size_t i = 1; i < nothing.size() / 4; ++i) ASSERT_LE(largestStepIn(nothing, 0, i), 1);
   r.decision.weather = fog(kNan, kNan);
+  r.levers.drawn.farM = r.decision.weather.farM;
   EXPECT_EQ(differing(clear, picture(r)), 0u);
   r.decision.weather = fog(kInfinity);
+  r.levers.drawn.farM = r.decision.weather.farM;
   EXPECT_EQ(differing(clear, picture(r)), 0u);
 }
 
@@ -287,6 +297,7 @@ TEST_F(Weather, showsWhatItCullsByAColourOfItsOwn) {
   use(test::syntheticMountains());
   auto r = level(500);
   r.decision.weather = fog(4000, 4000);
+  r.levers.drawn.farM = r.decision.weather.farM;
   r.overlays.colourByReason = true;
   FrameResult result;
   const Pixels8 shown = picture(r, &result);

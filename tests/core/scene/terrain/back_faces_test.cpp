@@ -38,9 +38,9 @@ class BackFaces : public test::SceneTest {
   void look(const GeodeticPosition& eye, const Attitude& attitude, CullingCase method, Seen& seen) {
     auto r = request(eye, attitude);
     r.staticLod.terrain = database->patches() ? TerrainForm::patches : TerrainForm::levels;
-    r.lod.screenSpaceError = Pixels{4};
+    r.levers.drawn.errorPx = 4;
     r.waitForPages = r.reproducible = true;
-    r.decision.occlusionResolution = OcclusionResolution{320, 240};
+    r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     r.method = method;
     FrameResult on, off;
     const auto fronts = picture(r, &on);
@@ -129,7 +129,7 @@ TEST_F(BackFaces, openNoRidgeWhereGlCutsTriangles) {
   // A sliver beside the picture's left edge; judged unrounded, it faces away (guard_band.h).
   auto r = request({Degrees{27.526951337}, Degrees{86.273159672}, Metres{2612.9352}},
                    {Degrees{151.820795}, Degrees{-4}, Degrees{0}});
-  r.lod.screenSpaceError = Pixels{0.5};
+  r.levers.drawn.errorPx = 0.5;
   r.method = CullingCase::none;
   const auto fronts = picture(r);
   r.backFaces = false;

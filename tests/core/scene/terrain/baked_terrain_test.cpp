@@ -33,7 +33,7 @@ class BakedScene : public test::SceneTest {
     auto r = request(over(east, north, aboveM), attitude);
     r.staticLod.terrain = TerrainForm::patches;
     r.waitForPages = true;
-    r.decision.occlusionResolution = OcclusionResolution{320, 240};
+    r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     r.occlusion = OcclusionMethod::horizon;
     return r;
   }
@@ -46,7 +46,7 @@ TEST_F(BakedScene, cullsAcrossTheDateLineAsAnywhere) {
   std::size_t hidden = 0, served = 0;
   for (int i = 0; i < 12; ++i) {
     auto r = patches(0.3 + 0.04 * i, 0.6, 60, {Degrees{30.0 * i}, Degrees{-3}, Degrees{}});
-    r.lod.screenSpaceError = Pixels{0.05};
+    r.levers.drawn.errorPx = 0.05;
     FrameResult result;
     r.method = CullingCase::none;
     const auto whole = picture(r, &result);
@@ -66,9 +66,9 @@ TEST_F(BakedScene, theGroundsTextureShrinksWithTheLodScaleOnlyWhereAsked) {
   bakeAt(10);
   auto r = patches(0.5, 0.5, 900, {Degrees{40}, Degrees{-40}, Degrees{}});
   const auto drawn = [&](double scale, bool texture) {
-    r.decision.lodScale = scale;
-    r.lod.screenSpaceError = Pixels{2 / scale};  // the same triangles at any scale
-    r.lod.texture = texture;
+    r.levers.drawn.lodScale = scale;
+    r.levers.drawn.errorPx = 2 / scale;  // the same triangles at any scale
+    r.scaleTexture = texture;
     return picture(r);
   };
   // How much neighbouring pixels differ: a coarser texture is smoother.

@@ -170,7 +170,7 @@ TEST_F(LineFeatures, arePaintedOnPatchesWhileAPixelWide) {
     for (const double errorPx : {1.0, 4.0, 16.0}) {
       auto r = from(at.east, at.north, at.aboveM, {Degrees{at.heading}, Degrees{at.pitch}, Degrees{}},
                     TerrainForm::patches);
-      r.lod.screenSpaceError = Pixels{errorPx};
+      r.levers.drawn.errorPx = errorPx;
       const Seen seen = look(r);
       std::printf(
           "%5.0f m, pitch %3.0f, %2.0f px: %4d places, %4d with the road, to %.2f px wide, lost to %.2f px\n",

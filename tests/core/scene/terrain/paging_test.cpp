@@ -77,7 +77,7 @@ class Paging : public testing::Test {
     r.eye = {Degrees{50 + north * index.rows / 3600.0}, Degrees{10 + east * index.columns / 2400.0},
              Metres{heightM}};
     r.terrain.cache = Megabytes{megabytes};
-    r.lod.screenSpaceError = Pixels{1};
+    r.levers.drawn.errorPx = 1;
     r.view.widthPx = 1280;
     r.view.heightPx = 720;
     return r;
@@ -90,7 +90,7 @@ class Paging : public testing::Test {
   double all() {
     Viewer viewer(slow);
     FrameRequest r = request(0.5, 0.5, 1000);
-    r.lod.screenSpaceError = Pixels{0};
+    r.levers.drawn.errorPx = 0;
     return static_cast<double>(viewer.frame(waiting(r)).bytes) / 1e6;
   }
 
@@ -301,7 +301,7 @@ class PagedPicture : public test::SceneTest {
 
 TEST_F(PagedPicture, endsAtWhatAFrameThatWaitsShows) {
   FrameRequest r = request(over(0.3, 0.4, 700), {Degrees{50}, Degrees{-12}, Degrees{0}});
-  r.lod.screenSpaceError = Pixels{1};
+  r.levers.drawn.errorPx = 1;
   slow->setDelay(10ms);
   std::size_t differed = 0;
   for (int i = 0; i < 3; ++i) {

@@ -100,9 +100,9 @@ class PatchCracks : public test::SceneTest {
       r.staticLod.terrain = TerrainForm::patches;
       r.waitForPages = true;
       r.overlays.showHoles = true;
-      r.lod.screenSpaceError = Pixels{0.3 * std::pow(100, unit(random))};
-      r.decision.lodScale = std::pow(8, unit(random));
-      r.decision.occlusionResolution = OcclusionResolution{160, 120};
+      r.levers.drawn.errorPx = 0.3 * std::pow(100, unit(random));
+      r.levers.drawn.lodScale = std::pow(8, unit(random));
+      r.levers.drawn.occlusion = OcclusionResolution{160, 120};
       r.method = i % 3 == 0   ? CullingCase::none
                  : i % 3 == 1 ? CullingCase::view_frustum
                               : CullingCase::proposed;

@@ -16,7 +16,7 @@ class PatchForm : public test::NodeOwners {
     auto r = request(over(east, north, aboveM), attitude);
     r.staticLod.terrain = TerrainForm::patches;
     r.waitForPages = true;
-    r.decision.occlusionResolution = OcclusionResolution{320, 240};
+    r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     return r;
   }
   /// Views of all kinds: near the ground and high, level and steep, rolled.
@@ -25,7 +25,7 @@ class PatchForm : public test::NodeOwners {
     auto r =
         patches(place(random), place(random), 20 * std::pow(200, unit(random)),
                 {Degrees{360 * unit(random)}, Degrees{20 - 90 * unit(random)}, Degrees{360 * unit(random)}});
-    r.lod.screenSpaceError = Pixels{0.5 * std::pow(16, unit(random))};
+    r.levers.drawn.errorPx = 0.5 * std::pow(16, unit(random));
     return r;
   }
   /// For people to look at: where TRIMTAB_PICTURES says.
@@ -98,7 +98,7 @@ TEST_F(PatchForm, isTheSameSurfaceAsTheTiles) {
     auto r = anyView(random);
     // Far enough for what the finest patches may err by.
     r.eye.height = Metres{2000.0 + 500 * i};
-    r.lod.screenSpaceError = Pixels{0.01};
+    r.levers.drawn.errorPx = 0.01;
     picture(r);
     const auto byPatches = renderer.readDistances();
     r.staticLod.terrain = TerrainForm::levels;
@@ -120,12 +120,13 @@ TEST_F(PatchForm, cullingCasesDrawTheSamePicture) {
     auto r = anyView(random);
     // Many small patches, from low: some are hidden.
     if (i % 2 == 0) {
-      r.lod.screenSpaceError = Pixels{0.05};
+      r.levers.drawn.errorPx = 0.05;
       r.eye = over(0.2 + 0.025 * i, 0.6, 60);
       r.attitude.pitch = Degrees{-3};
     }
     if (i % 3 == 0)
       r.decision.weather = {.fogged = true, .visibilityM = 9000, .extinctionPerM = 4e-4, .farM = 9000};
+    r.levers.drawn.farM = r.decision.weather.farM;
     FrameResult result;
     r.method = CullingCase::none;
     const auto whole = picture(r, &result);
@@ -146,7 +147,7 @@ TEST_F(PatchForm, nodePassGivesEachPixelToThePatchWithoutWhichItChanges) {
   auto r = patches(0.4, 0.5, 150, {Degrees{40}, Degrees{-6}, Degrees{17}});
   r.method = CullingCase::view_frustum;
   for (const double error : {1.0, 8.0}) {
-    r.lod.screenSpaceError = Pixels{error};
+    r.levers.drawn.errorPx = error;
     compareWithLeavingOut(r, 16);
   }
 }
@@ -196,10 +197,10 @@ TEST_F(PatchForm, overlaysShowIt) {
 TEST_F(PatchForm, whatIsColouredByTheGroundKeepsItsColourWhateverTheLevel) {
   use(test::patchedMountains(false));
   auto r = patches(0.5, 0.5, 6000, {Degrees{40}, Degrees{-80}, Degrees{}});
-  r.lod.screenSpaceError = Pixels{0.2};
+  r.levers.drawn.errorPx = 0.2;
   const auto fine = picture(r);
   keep("fine", fine, r.view);
-  r.lod.screenSpaceError = Pixels{2};
+  r.levers.drawn.errorPx = 2;
   const auto coarse = picture(r);
   keep("coarse", coarse, r.view);
   std::size_t off = 0;

@@ -52,8 +52,8 @@ class StaticTrees : public SceneTest {
       auto r = treeRequest(over(east, north, above), {Degrees{360 * unit(random)}, Degrees{pitch},
                                                       Degrees{i % 3 ? 0 : 360 * unit(random)}});
       if (i % 6 == 5) r.view.left = -0.2, r.view.right = 0.9, r.view.bottom = -0.6, r.view.top = 0.1;
-      r.staticLod.errorPx = Pixels{i % 4 ? finestPx : 16 * finestPx};
-      r.decision.occlusionResolution = OcclusionResolution{i % 4 < 2 ? 320 : 800, i % 4 < 2 ? 240 : 600};
+      r.levers.drawn.treeErrorPx = i % 4 ? finestPx : 16 * finestPx;
+      r.levers.drawn.occlusion = OcclusionResolution{i % 4 < 2 ? 320 : 800, i % 4 < 2 ? 240 : 600};
       FrameResult result;
       r.method = CullingCase::none;
       const auto whole = picture(r, &result);
@@ -79,7 +79,7 @@ class StaticTrees : public SceneTest {
         auto r = treeRequest(over(0.48 + above * 1e-5, 0.52, above),
                              {Degrees{above}, Degrees{-90 + above / 200}, Degrees{error}});
         r.overlays.showHoles = true;
-        r.staticLod.errorPx = Pixels{error};
+        r.levers.drawn.treeErrorPx = error;
         FrameResult result;
         EXPECT_EQ(magenta(picture(r, &result)), 0u) << above << " m, " << error << " px";
         for (const TileDraw& node : result.visible.tiles) depths.insert(trees().nodes[node.node].depth);
@@ -93,8 +93,8 @@ TEST_F(StaticTrees, drawTheSameTerrainAsTheTiledLevelsWhereBothAreExact) {
       4, 1.0 / 1200, GeodeticPosition{Degrees{36.4}, Degrees{128.1}, Metres{0}}, test::mountains)));
   for (const double heading : {0.0, 130.0, 260.0}) {
     auto r = treeRequest(over(0.5, 0.45, 250), {Degrees{heading}, Degrees{-6}, Degrees{heading / 20}});
-    r.lod.screenSpaceError = Pixels{1e-6};
-    r.staticLod.errorPx = Pixels{1e-6};
+    r.levers.drawn.errorPx = 1e-6;
+    r.levers.drawn.treeErrorPx = 1e-6;
     const auto byTrees = picture(r);
     r.staticLod.terrain = TerrainForm::levels;
     const auto byLevels = picture(r);
@@ -149,10 +149,10 @@ TEST_F(StaticTrees, holdTheirPlaceHundredKilometresFromTheOrigin) {
     auto r = treeRequest({top.latitude - Degrees{away}, top.longitude + Degrees{0.0000043 * i}, Metres{1.37}},
                          {Degrees{-3 + 0.271 * i}, Degrees{0}, Degrees{0}});
     r.overlays.showHoles = true;
-    r.staticLod.errorPx = Pixels{1e-6};
+    r.levers.drawn.treeErrorPx = 1e-6;
     const auto byTrees = picture(r);
     r.staticLod.terrain = TerrainForm::levels;
-    r.lod.screenSpaceError = Pixels{1e-6};
+    r.levers.drawn.errorPx = 1e-6;
     const auto byLevels = picture(r);
     std::size_t wrong = 0;
     for (int y = 0; y < kHeight; ++y)
@@ -179,10 +179,10 @@ TEST_F(StaticTrees, areCoarserFartherAwayAndForALargerScale) {
   }
   auto r = treeRequest(over(0.5, 0.5, 2000), {Degrees{0}, Degrees{-20}, Degrees{0}});
   const auto fine = renderer.draw(r, offscreen->framebuffer());
-  r.decision.lodScale = 4;
+  r.levers.drawn.lodScale = 4;
   const auto coarse = renderer.draw(r, offscreen->framebuffer());
   EXPECT_LT(coarse.visible.triangles, fine.visible.triangles);
-  r.decision.lodScale = 1;
+  r.levers.drawn.lodScale = 1;
   r.staticLod.rule = StaticDistanceRule::factor;
   r.staticLod.distancePerError = Ratio{50};
   const auto byFactor = renderer.draw(r, offscreen->framebuffer());
@@ -239,7 +239,7 @@ TEST_F(StaticTrees, areUploadedOnFirstUseAndSelectedOnlyAnew) {
   const auto turned = renderer.draw(r, offscreen->framebuffer());
   EXPECT_EQ(turned.counters.cutsSelected, 1u);
   EXPECT_GT(turned.counters.tilesBuilt, first.counters.tilesBuilt);
-  r.decision.lodScale = 2;
+  r.levers.drawn.lodScale = 2;
   EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 2u);
   r.eye.height = r.eye.height + Metres{1};
   EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.cutsSelected, 3u);
@@ -341,8 +341,8 @@ TEST_F(StaticTrees, workWithEveryOtherOverlay) {
 TEST_F(StaticTrees, keepWhatWasHiddenWhileCullingIsFrozen) {
   use(treeMountains());
   auto r = treeRequest(over(0.3, 0.3, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
-  r.staticLod.errorPx = Pixels{0.05};
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.treeErrorPx = 0.05;
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   const auto live = renderer.draw(r, offscreen->framebuffer());
   ASSERT_GT(live.visible.occluded, 5u);
   const auto grey = renderer.readDepthMap();
@@ -365,8 +365,8 @@ TEST_F(StaticTrees, keepWhatWasHiddenWhileCullingIsFrozen) {
 TEST_F(StaticTrees, chooseAndReadNothingAgainForAViewThatStands) {
   use(treeMountains());
   auto r = treeRequest(over(0.3, 0.3, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
-  r.staticLod.errorPx = Pixels{0.05};
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.treeErrorPx = 0.05;
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   FrameResult first, second;
   const auto before = picture(r, &first);
   ASSERT_GT(first.visible.occluded, 5u);
@@ -397,20 +397,20 @@ TEST_F(StaticTrees, chooseAndReadNothingAgainForAViewThatStands) {
   changes("a head that turns", [](auto& c) { c.attitude.heading = Degrees{41}; });
   changes("another case", [](auto& c) { c.method = CullingCase::view_frustum; });
   changes("another size of the map", [](auto& c) {
-    c.decision.occlusionResolution = OcclusionResolution{160, 120};
+    c.levers.drawn.occlusion = OcclusionResolution{160, 120};
   });
-  changes("coarser levels", [](auto& c) { c.decision.lodScale = 3; });
-  changes("weather", [](auto& c) { c.decision.weather.farM = 2000; });
+  changes("coarser levels", [](auto& c) { c.levers.drawn.lodScale = 3; });
+  changes("weather", [](auto& c) { c.levers.drawn.farM = 2000; });
 }
 
 TEST_F(StaticTrees, readNoDepthMapWhereNoneIsAskedForOrWorthIt) {
   use(treeMountains());
   auto r = treeRequest(over(0.3, 0.3, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
-  r.staticLod.errorPx = Pixels{0.05};
+  r.levers.drawn.treeErrorPx = 0.05;
   auto result = renderer.draw(r, offscreen->framebuffer());
   EXPECT_EQ(result.counters.depthMapsDrawn, 0u) << "scheme frustum";
   EXPECT_TRUE(std::isnan(result.cost.occlusion));
-  r.decision.occlusionResolution = OcclusionResolution{320, 240};
+  r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   r.method = CullingCase::view_frustum;
   EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.depthMapsDrawn, 0u);
   r.method = CullingCase::proposed;

@@ -25,7 +25,7 @@ class Looking {
     request_.occlusion = method;
     request_.waitForPages = atOnce;
     request_.skips.littleHidden = false;
-    request_.decision.occlusionResolution = OcclusionResolution{400, 300};
+    request_.levers.drawn.occlusion = OcclusionResolution{400, 300};
     request_.view.widthPx = 640, request_.view.heightPx = 360;
     request_.eye = scene::placeIn(database_->info(), 0.5, 0.5);
     request_.eye.height =
@@ -116,9 +116,9 @@ TEST_F(SharedScene, drawsWhateverIsVisibleWhileSurfacesAreMade) {
         if (frame == 0) renderer.setTerrain(database);  // forgets its surfaces
         auto r = request(over(0.45 + 1e-4 * frame, 0.5, 90), {Degrees{9.0 * frame}, Degrees{-3}, Degrees{0}});
         r.staticLod.terrain = patches ? TerrainForm::patches : TerrainForm::levels;
-        r.decision.occlusionResolution = OcclusionResolution{400, 300};
+        r.levers.drawn.occlusion = OcclusionResolution{400, 300};
         r.occlusion = method;
-        r.lod.screenSpaceError = Pixels{0.5};
+        r.levers.drawn.errorPx = 0.5;
         FrameResult result;
         picture(r, &result);
         std::set<std::uint32_t> drawn;
@@ -144,9 +144,9 @@ TEST_F(SharedScene, hidesWhileMostSurfacesAreNotMade) {
       renderer.setTerrain(database);  // forgets its surfaces
       auto r = request(over(east, 0.5, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
       r.staticLod.terrain = patches ? TerrainForm::patches : TerrainForm::levels;
-      r.decision.occlusionResolution = OcclusionResolution{400, 300};
+      r.levers.drawn.occlusion = OcclusionResolution{400, 300};
       r.occlusion = OcclusionMethod::horizon;
-      r.lod.screenSpaceError = Pixels{0.1};
+      r.levers.drawn.errorPx = 0.1;
       r.waitForPages = true;
       r.method = CullingCase::view_frustum;
       FrameResult result;

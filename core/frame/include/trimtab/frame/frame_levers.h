@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "trimtab/frame/frame.h"
@@ -88,6 +89,11 @@ inline constexpr std::array<FrameLeverRow, 8> kFrameLeverRows{{
 double valueOf(const FrameLevers& levers, const FrameLeverRow& row);
 /// Returns which step changed the lever last: the preset if none did.
 LeverStep lastChange(const LeverChain& chain, const FrameLeverRow& row);
+
+/// Returns who set the lever and who changed it to what, in order: "preset 2 px, policy 4 px, budget 5.66 px".
+std::string explain(const LeverChain& chain, const FrameLeverRow& row);
+/// Returns a value with its unit: "4 px", "400 x 300 px", "none".
+std::string valueText(const FrameLevers& levers, const FrameLeverRow& row);
 
 /// Returns the name of a step, as traces, docks and reports show it.
 std::string_view toText(LeverStep step);

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "trimtab/units/geodesy.h"
+
 namespace trimtab {
 
 /// Says what the optimizer did with a state. After `fast`, level, blur or both stacks changed.
@@ -23,11 +25,23 @@ enum class MotionReason {
   blur_ended      ///< the blur's time ran out
 };
 
+/// The eye of an image between two states, or of a state itself.
+struct DrawnEye {
+  double timeS = 0;  ///< on the clock of the states
+  GeodeticPosition position;
+  Attitude attitude;             ///< of the aircraft
+  std::optional<Attitude> head;  ///< relative to the aircraft
+
+  friend bool operator==(const DrawnEye&, const DrawnEye&) = default;
+};
+
 /// What document C's optimizer receives beside the state (section 3.2: "information about vertices and
 /// FPS"). A part that is unset is unknown.
 struct DrawnLoad {
   std::optional<double> framesPerS;       ///< average of recent images
   std::optional<std::uint64_t> vertices;  ///< in view in the last image
+  /// The image that is decided, whose turn counts instead of the state's; if unset, the state is the image.
+  std::optional<DrawnEye> eye;
 
   friend bool operator==(const DrawnLoad&, const DrawnLoad&) = default;
 };
