@@ -92,6 +92,7 @@ void measureImages(experiment::Stage& stage, scene::ErrorMeter& meter, const Pla
     if (!image.before.empty()) stage.draw(image.before.back());
     const FrameResult first = stage.draw(alone(image.request));
     one.counts = countsOf(first.visible);
+    one.levers = image.request.levers.drawn;
     pageMs.push_back(first.cost.page);
     mean.add(one);
   }

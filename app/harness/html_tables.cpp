@@ -96,6 +96,32 @@ std::string timeTable(const ReportModel& model) {
   return table.take();
 }
 
+/// The levers with which frames were drawn, after policy and budget.
+std::string leverTable(const ReportModel& model) {
+  auto columns = nameColumns(model);
+  const auto levers = measuredOf(model, Kind::lever);
+  for (const Quantity* q : levers)
+    columns.push_back(
+        {std::string(q->label), std::string(q->unit), "median of the frames; beneath, from least to most"});
+  HtmlTable table("Levers as drawn (median; beneath, from least to most)", columns);
+  for (const Answer& answer : answersOf(model.results))
+    for (const Unit* unit : model.unitsOf(answer.flight)) {
+      nameCells(table, model, unit->name);
+      for (const Quantity* q : levers) {
+        const auto values = finiteOf(*unit, *q);
+        if (values.empty()) {
+          table.text("-");
+          continue;
+        }
+        const auto [least, most] = std::minmax_element(values.begin(), values.end());
+        const double median = model.summary(*unit, *q).median;
+        table.number(median, roundedText(median),
+                     *least == *most ? std::string() : roundedText(*least) + " to " + roundedText(*most));
+      }
+    }
+  return table.take();
+}
+
 std::string errorTable(const ReportModel& model) {
   auto columns = nameColumns(model);
   const auto errors = measuredOf(model, Kind::error);
@@ -187,7 +213,7 @@ std::string summarySection(const ReportModel& model) {
   std::string body;
   for (const Answer& answer : answersOf(model.results))
     body += paragraph((model.flights.size() > 1 ? answer.flight + ": " : std::string()) + answer.why);
-  body += timeTable(model) + errorTable(model);
+  body += timeTable(model) + errorTable(model) + leverTable(model);
   if (const std::string absent = absentText(model, Kind::error); !absent.empty())
     body += paragraph(absent, "none");
   return section("summary", "Summary", body);

@@ -85,6 +85,20 @@ std::string cellText(double value) {
 
 }  // namespace
 
+/// Of kFrameLeverRows. No limit is no number.
+template <std::size_t Row>
+Quantity lever() {
+  constexpr FrameLeverRow kRow = kFrameLeverRows[Row];
+  static_assert(kRow.value != nullptr);
+  Quantity q{.key = kRow.key, .label = kRow.label, .unit = kRow.unit, .kind = Quantity::Kind::lever};
+  q.of = [](const MeasuredFrame& frame) {
+    const double value = frame.levers.*kFrameLeverRows[Row].value;
+    return std::isfinite(value) ? value : kNan;
+  };
+  q.set = [](MeasuredFrame& frame, double value) { frame.levers.*kFrameLeverRows[Row].value = value; };
+  return q;
+}
+
 const std::vector<Quantity>& quantities() {
   static const std::vector<Quantity> all = [] {
     std::vector<Quantity> list = costs(std::make_index_sequence<kCostStages.size()>{});
@@ -105,6 +119,13 @@ const std::vector<Quantity>& quantities() {
         error<&FrameError::flip>("flip", "FLIP", ""),
         error<&FrameError::pop>("pop", "temporal pop", "of 255"),
         error<&FrameError::hiddenDrawnShare>("hidden_drawn_share", "hidden tiles drawn", "of drawn"),
+        lever<0>(),
+        lever<1>(),
+        lever<2>(),
+        lever<3>(),
+        lever<4>(),
+        lever<5>(),
+        lever<6>(),
     };
     list.insert(list.end(), std::begin(others), std::end(others));
     return list;

@@ -24,14 +24,15 @@ struct UnitName {
   friend bool operator==(const UnitName&, const UnitName&) = default;
 };
 
-/// One frame of a unit. `cost` has the medians of its repeats. Errors and counts are equal in all repeats; but
-/// if the preset decides by time, they are means of the repeats, and largest errors the largest of them.
+/// One frame of a unit. `cost` has the medians of its repeats. Errors and counts are equal in all repeats;
+/// but if the preset decides by time, they are means of the repeats, and largest errors the largest of them.
 struct MeasuredFrame {
   std::size_t row = 0;  ///< of the flight
   double timeS = 0;     ///< of the flight's clock
   FrameCost cost;
   TraceCounts counts;
   FrameError error;
+  FrameLevers levers;  ///< with which it was drawn; means over the flights
   /// `cost.total` of each repeat in the order drawn, in milliseconds. The n-th repeats of all units of a
   /// flight were drawn one after the other.
   std::vector<double> repeatsMs;
@@ -91,7 +92,7 @@ std::vector<Comparison> compareUnits(const std::vector<Unit>& units);
 
 /// A number that each frame has: a column of the CSV, an axis of a plot.
 struct Quantity {
-  enum class Kind { cost, count, error };
+  enum class Kind { cost, count, error, lever };
 
   std::string_view key;    ///< "frame_ms", "flip"
   std::string_view label;  ///< "frame time"
@@ -104,7 +105,7 @@ struct Quantity {
   StageKind stage = StageKind::of_frame;  ///< for costs: which of them sum to the frame (cost_stages.h)
 };
 /// Returns all quantities in the order of the CSV: the frame, its stages in the order of cost_stages.h,
-/// counts, errors. A mechanism that adds a count or an error adds a row here and nowhere else.
+/// counts, errors, levers. A mechanism that adds a count or an error adds a row here and nowhere else.
 const std::vector<Quantity>& quantities();
 const Quantity* quantityOf(std::string_view key);
 

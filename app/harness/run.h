@@ -33,9 +33,9 @@ struct Plan {
   /// Whether presets whose decisions depend on their own images draw every row of a flight, instead of those
   /// rows that may have an effect on a sampled frame.
   bool whole = false;
-  std::size_t worst = 3;    ///< most worst frames kept of each unit
-  bool skips = true;        ///< whether to measure what skipped work saved
-  std::string version;      ///< of the program
+  std::size_t worst = 3;  ///< most worst frames kept of each unit
+  bool skips = true;      ///< whether to measure what skipped work saved
+  std::string version;    ///< of the program
   /// Called often; returning false cancels the run. Finished parts stay in the folder.
   std::function<bool(double fraction, const std::string& what)> progress;
 };

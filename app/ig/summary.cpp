@@ -102,8 +102,7 @@ std::string summaryLine(const Summary& s, const Feed& feed) {
             " frames; overtaken packets too: " + milliseconds(s.everyP99Ms) + ")";
   if (s.damagedPlaces > 0) text += "; terrain damaged in " + std::to_string(s.damagedPlaces) + " places";
   return text + "; frame median " + milliseconds(s.medianFrameMs) + ", p99 " + milliseconds(s.p99FrameMs) +
-         ", " + std::to_string(s.overBudget) + " over budget" + heldText(s) +
-         leversText(s.levers);
+         ", " + std::to_string(s.overBudget) + " over budget" + heldText(s) + leversText(s.levers);
 }
 
 std::string summaryJson(const Summary& s, const Feed& feed, const Options& options,

@@ -45,16 +45,16 @@ TEST(FovMovement, dividesByTheAverageRateOfImagesWhereTheyAreCounted) {
     next.attitude.heading = Degrees{degrees};
     return decideMotion(next, p, from, drawn);
   };
-  EXPECT_TRUE(turned(1.5, {100, {}}).fast);
-  EXPECT_NEAR(turned(1.5, {100, {}}).rateDegPerS, 150, 1e-9);
-  EXPECT_FALSE(turned(0.6, {100, {}}).fast) << "exactly the threshold";
-  EXPECT_TRUE(turned(0.601, {100, {}}).fast);
+  EXPECT_TRUE(turned(1.5, {100, {}, {}}).fast);
+  EXPECT_NEAR(turned(1.5, {100, {}, {}}).rateDegPerS, 150, 1e-9);
+  EXPECT_FALSE(turned(0.6, {100, {}, {}}).fast) << "exactly the threshold";
+  EXPECT_TRUE(turned(0.601, {100, {}, {}}).fast);
   for (const std::optional<double> unknown :
        {std::optional<double>{}, std::optional(0.0), std::optional(-1.0), std::optional(kNan),
         std::optional(kInfinity)})
-    EXPECT_NEAR(turned(1.5, {unknown, {}}).rateDegPerS, 30, 1e-9) << "by the step";
+    EXPECT_NEAR(turned(1.5, {unknown, {}, {}}).rateDegPerS, 30, 1e-9) << "by the step";
   p.frames = MotionFrames::host_states;
-  EXPECT_NEAR(turned(1.5, {100, {}}).rateDegPerS, 30, 1e-9) << "the rate of images does not matter";
+  EXPECT_NEAR(turned(1.5, {100, {}, {}}).rateDegPerS, 30, 1e-9) << "the rate of images does not matter";
 }
 
 TEST(FovMovement, takesTheLargerOfHeadingAndPitch) {
