@@ -130,6 +130,16 @@ HoldDecision FrameHold::decide(const HoldGiven& given, const HoldParameters& par
   const HoldSteps before = memory_.steps;
   const HoldDecision d = arbitrate(given, parameters, memory_);
   exchanged_ = memory_.steps != before;
+  return apply(given, d, request);
+}
+
+HoldDecision FrameHold::replay(const HoldGiven& given, const HoldDecision& decision, FrameRequest& request) {
+  exchanged_ = decision.held != held_;
+  memory_ = {};
+  return apply(given, decision, request);
+}
+
+HoldDecision FrameHold::apply(const HoldGiven& given, const HoldDecision& d, FrameRequest& request) {
   given_ = given;
   held_ = d.held;
   requested_ = true;

@@ -53,7 +53,7 @@ struct Flat {
   FlatEye drawnEye;
   TraceFrame frame;
   bool hasFrame = false;
-  HoldRecord hold;
+  HoldDecision hold;
   bool hasHold = false;
 };
 
@@ -152,12 +152,11 @@ void forEachPolicyColumn(Policy& p, const Visit& visit) {
   visit("signals_unknown", Cell::optional, p.unknownAsked);
 }
 
-/// The arbitration of the image that showed the decision. What it was given is one cell, see trace_cells.h.
-template <class Record, class Visit>
-void forEachHoldColumn(Record& hold, const Visit& visit) {
-  visit("hold_given", Cell::hold, hold.given);
-  visit("hold_before", Cell::hold, hold.before);
-  auto& d = hold.decision;
+/// What the arbiter of the budget decided for the image that showed the decision. Former traces also have
+/// hold_given and hold_before, what it decided from and its memory: no column of that name is known any more,
+/// so they are ignored whatever is in them.
+template <class Decision, class Visit>
+void forEachHoldColumn(Decision& d, const Visit& visit) {
   visit("hold_reason", Cell::hold, d.reason);
   visit("hold_asked_error_px", Cell::hold, d.asked.errorPx);
   visit("hold_asked_render_scale", Cell::hold, d.asked.renderScale);

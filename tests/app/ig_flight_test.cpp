@@ -82,7 +82,7 @@ TEST_F(IgFlight, saysWhatHoldingTheBudgetCouldNotDo) {
   EXPECT_GT(held["out_of_reach"], 30) << "no image takes a tenth of a millisecond";
   std::size_t outOfReach = 0;
   for (const TraceRow& row : rowsOf(dir_ / "trace.csv"))
-    outOfReach += row.hold && row.hold->decision.reason == HoldReason::out_of_reach;
+    outOfReach += row.hold && row.hold->reason == HoldReason::out_of_reach;
   EXPECT_EQ(held["out_of_reach"], outOfReach);
 }
 

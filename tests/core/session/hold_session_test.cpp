@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/core/culling/random_index.h"
+#include "tests/support.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/session/motion_ahead.h"
 #include "trimtab/session/session.h"
@@ -286,7 +287,7 @@ TEST(HoldSession, settlesAfterEveryStepAndDoesNotCycle) {
   }
 }
 
-TEST(HoldSession, aTraceReplaysEveryArbitrationToTheBit) {
+TEST(HoldSession, aTraceReplaysEveryLeverToTheBit) {
   const ValidatedParameters parameters = holding(14);
   const Flown flown = fly(parameters, 300);
   std::string text = traceHeader() + '\n';
@@ -307,6 +308,34 @@ TEST(HoldSession, aTraceReplaysEveryArbitrationToTheBit) {
     lowered += request.hold.held != request.hold.asked;
   }
   EXPECT_GT(lowered, 50);
+}
+
+/// Former traces also had cells with what the arbiter was given and remembered.
+TEST(HoldSession, aTraceWithInputsOfTheArbiterReplaysTheSameLevers) {
+  const auto file = test::sourceDir() / "tests/data/traces/held-with-inputs.csv";
+  const Result<std::vector<TraceRow>> read = readTrace(file);
+  ASSERT_TRUE(read.ok()) << toString(read.findings());
+  ASSERT_EQ(read->size(), 10u);
+  Session replay(holding(14));
+  replay.keepRows(true);
+  int unknown = 0, held = 0;
+  for (const TraceRow& row : *read) {
+    ASSERT_TRUE(row.hold);
+    replay.replay(row);
+    const FrameRequest request = *replay.request(row.input.state.time, 640, 360);
+    EXPECT_EQ(request.hold, *row.hold);
+    EXPECT_EQ(request.renderScale, row.hold->held.renderScale);
+    EXPECT_EQ(request.lod.screenSpaceError.value(), row.hold->held.errorPx);
+    unknown += row.hold->reason == HoldReason::cost_unknown && request.renderScale == 1;
+    held += row.hold->reason == HoldReason::held && request.lod.screenSpaceError == Pixels{16};
+  }
+  EXPECT_EQ(unknown, 3);
+  EXPECT_EQ(held, 5);
+  std::vector<TraceRow> again;
+  replay.takeRows(again, true);
+  ASSERT_EQ(again.size(), read->size());
+  EXPECT_EQ(again[4].hold, (*read)[4].hold);
+  EXPECT_EQ(traceHeader().find("hold_given"), std::string::npos);
 }
 
 TEST(HoldSession, changesNothingUnlessThePresetAsksForIt) {

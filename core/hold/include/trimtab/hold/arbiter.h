@@ -34,8 +34,7 @@
 /// hold.caution of the bands that this adds (coefficientBandMs).
 namespace trimtab {
 
-/// Everything that an image's arbitration depends on beside its memory, as plain numbers, so that a trace can
-/// hold it.
+/// Everything that an image's arbitration depends on beside its memory, as plain numbers.
 struct HoldGiven {
   double timeS = 0;  ///< on the clock of the states
   double budgetMs = 0;
@@ -75,20 +74,13 @@ struct HoldMemory {
   friend bool operator==(const HoldMemory&, const HoldMemory&) = default;
 };
 
-/// One arbitration, for traces.
-struct HoldRecord {
-  HoldGiven given;
-  HoldMemory before;
-  HoldDecision decision;
-};
-
-/// Decides the levers of one image. It is pure but for `memory`, allocates nothing and gives the same bits on
-/// replay. If the budget or the cost is unknown, the levers stay as they are asked for. Time that stands,
-/// goes back or is not a number counts as no time.
+/// Decides the levers of one image. It is pure but for `memory`, and allocates nothing. If the budget or the
+/// cost is unknown, the levers stay as they are asked for. Time that stands, goes back or is not a number
+/// counts as no time.
 HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& parameters, HoldMemory& memory);
 
-/// Returns how long an image may have an effect on later decisions, milliseconds: a restoration that it begins,
-/// and the time within which that may be taken back. Patience may delay one for longer.
+/// Returns how long an image may have an effect on later decisions, milliseconds: a restoration that it
+/// begins, and the time within which that may be taken back. Patience may delay one for longer.
 double rememberedMs();
 
 /// Returns the allowed error at a place of HoldSteps::error, pixels.

@@ -38,8 +38,10 @@ class FrameHold {
   /// `unseenPx` the error that motion hides.
   HoldGiven look(const FrameRequest& request, std::span<const ComingEye> coming, double budgetMs,
                  double unseenPx);
-  /// Decides, and writes the levers into the request. The same `given` and memory() give the same bits.
+  /// Decides, and writes the levers into the request.
   HoldDecision decide(const HoldGiven& given, const HoldParameters& parameters, FrameRequest& request);
+  /// Writes what was decided before, perhaps on another machine, into the request, and returns it.
+  HoldDecision replay(const HoldGiven& given, const HoldDecision& decision, FrameRequest& request);
 
   /// Learns from the image of the last request.
   void finished(const FrameResult& result, const FrameCost& cost);
@@ -66,6 +68,7 @@ class FrameHold {
   static constexpr int kImagesAhead = 3;
 
  private:
+  HoldDecision apply(const HoldGiven& given, const HoldDecision& decision, FrameRequest& request);
   TriangleLadder count(const FrameRequest& request, const LoadView& view);
   const std::vector<float>& treeErrorOf(ErrorMeasure measure);
   void collect(const FrameRequest& request, const LoadView& view, double errorScale);

@@ -9,7 +9,7 @@
 
 #include "trimtab/decision/decide.h"
 #include "trimtab/frame/frame.h"
-#include "trimtab/hold/arbiter.h"
+#include "trimtab/frame/hold_decision.h"
 #include "trimtab/units/result.h"
 
 /// Writes and reads decision traces: CSV with one row per decided packet. The first columns are those of a
@@ -41,7 +41,7 @@ struct TraceRow {
   FrameDecision decision;
   LeverChain levers{};  ///< of that frame, or of the decision if no frame showed it
   std::optional<TraceFrame> frame{};
-  std::optional<HoldRecord> hold{};  ///< of that frame, if its budget was held
+  std::optional<HoldDecision> hold{};  ///< of that frame, if its budget was held
 };
 
 /// Returns the column names, separated by commas, without a line end.
@@ -64,9 +64,8 @@ struct TraceDifference {
   std::size_t row = 0;
   FrameDecision recorded, decided;
 };
-/// Decides every row again from the memory that it was decided with, arbitration of the budget included, and
-/// compares exactly. Returns the rows
-/// that differ.
+/// Decides every row again from the memory that it was decided with, and compares exactly. Returns the rows
+/// that differ. What the budget lowered depended on the machine, so that is replayed and not decided again.
 std::vector<TraceDifference> decideAgain(const std::vector<TraceRow>& trace,
                                          const ValidatedParameters& parameters);
 

@@ -208,8 +208,8 @@ class Session {
   /// What holds the budget.
   struct Budget {
     FrameHold hold;
-    MotionAhead ahead;                   ///< up to the last image requested
-    std::optional<HoldRecord> replayed;  ///< of the row of a trace that the next image shows
+    MotionAhead ahead;                     ///< up to the last image requested
+    std::optional<HoldDecision> replayed;  ///< of the row of a trace that the next image shows
   };
   Budget budget_;
   GroundVelocity groundVelocity_;
