@@ -43,6 +43,15 @@ inline void print(std::string& text, const RuleFiring& firing) {
   }
 }
 
+/// A fixed count of numbers, as "2;2;2;4;5.6".
+template <std::size_t N>
+void print(std::string& text, const std::array<double, N>& numbers) {
+  for (std::size_t i = 0; i < N; ++i) {
+    if (i > 0) text += ';';
+    print(text, numbers[i]);
+  }
+}
+
 /// What a cell may hold, for findings.
 struct Expected {
   std::string what;
@@ -77,6 +86,19 @@ inline bool parse(std::string_view cell, RuleFiring& firing, Expected& expected)
   }
   expected.what = "up to " + std::to_string(RuleList::kCapacity) + " numbers with ; between";
   return false;
+}
+template <std::size_t N>
+bool parse(std::string_view cell, std::array<double, N>& numbers, Expected& expected) {
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::size_t end = cell.find(';');
+    if (!parse(cell.substr(0, end), numbers[i], expected) ||
+        (end == std::string_view::npos) != (i + 1 == N)) {
+      expected.what = std::to_string(N) + " numbers with ; between";
+      return false;
+    }
+    if (i + 1 < N) cell.remove_prefix(end + 1);
+  }
+  return true;
 }
 template <class E>
 requires std::is_enum_v<E>

@@ -6,6 +6,7 @@
 #include <string>
 #include <type_traits>
 
+#include "trace_chain.h"
 #include "trimtab/measure/cost_stages.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/motion/head_motion.h"
@@ -13,10 +14,6 @@
 /// The trace's columns: the one list that header, writer and reader share. A column that a later version adds
 /// is `Cell::optional`, so that traces without it stay readable: its field keeps its default.
 namespace trimtab::trace {
-
-/// Whether a cell may be empty; cells of the frame are all empty where no frame showed the decision, and
-/// those of `hold` where no budget was held. Columns that are `former` are read, but not written.
-enum class Cell { required, optional, frame, hold, former };
 
 /// What a policy was given, what its levers were before, and what it set. The cells of a preset without a
 /// policy are empty, and so is the cell of a signal that nobody knows.
@@ -51,6 +48,7 @@ struct Flat {
   std::array<std::optional<double>, 4> formerFiring;
   FlatPolicy policy;
   FlatEye drawnEye;
+  FlatChain chain;
   TraceFrame frame;
   bool hasFrame = false;
   HoldDecision hold;
@@ -257,6 +255,7 @@ void forEachColumn(F& f, const Visit& visit) {
   forEachWeatherColumn(d.weather, visit);
   forEachPolicyColumn(f.policy, visit);
   forEachHoldColumn(f.hold, visit);
+  forEachChainColumn(f.chain, visit);
 
   visit("triangles", Cell::frame, f.frame.counts.triangles);
   visit("vertices", Cell::frame, f.frame.counts.vertices);
@@ -334,6 +333,7 @@ inline std::optional<DrawnEye> unflattenEye(const FlatEye& f) {
 inline Flat flatten(const TraceRow& row) {
   Flat f;
   f.row = row;
+  f.chain = flattenChain(row.levers);
   if (row.input.drawn.eye) f.drawnEye = flattenEye(*row.input.drawn.eye);
   f.policy = flattenPolicy(row);
   const AircraftState& state = row.input.state;
@@ -369,6 +369,7 @@ inline Flat flatten(const TraceRow& row) {
 
 inline TraceRow unflatten(Flat& f) {
   f.row.input.drawn.eye = unflattenEye(f.drawnEye);
+  unflattenChain(f.chain, f.row.levers);
   AircraftState& state = f.row.input.state;
   state.position.height = f.height;
   state.aboveGround = f.row.input.aboveGround;

@@ -116,7 +116,11 @@ TraceRow anyRow(std::mt19937_64& random) {
     maybe(state.view->nearDistance);
   }
   for (const CostStage& stage : kCostStages) row.input.lastCost.*stage.ms = number();
-  if (random() % 2) row.input.drawn = {number(), random()};
+  if (random() % 2) row.input.drawn = {number(), random(), {}};
+  const auto attitude = [&] { return Attitude{Degrees{number()}, Degrees{number()}, Degrees{number()}}; };
+  if (random() % 2)
+    row.input.drawn.eye =
+        DrawnEye{number(), {Degrees{number()}, Degrees{number()}, Metres{number()}}, attitude(), attitude()};
   if (random() % 2) row.before.band = static_cast<int>(random() % 17) - 1;
   FrameDecision& d = row.decision;
   for (double* value :
@@ -130,7 +134,13 @@ TraceRow anyRow(std::mt19937_64& random) {
     d.occlusionResolution =
         OcclusionResolution{static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
   d.reason = static_cast<SchemeReason>(random() % 6);
-  row.levers.policy.lodScale = number();
+  LeverChain& chain = row.levers;
+  for (FrameLevers* levers : {&chain.preset, &chain.motion, &chain.weather, &chain.policy, &chain.drawn}) {
+    *levers = {number(), number(), number(), number(), number(), number(), number(), number(), {}};
+    if (random() % 2)
+      levers->occlusion =
+          OcclusionResolution{1 + static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
+  }
   anyMotion(random, row.before, d);
   anyWeather(random, d.weather);
   anyPolicy(random, row);
@@ -156,6 +166,7 @@ void expectSame(const TraceRow& a, const TraceRow& b) {
   }
   EXPECT_EQ(a.before, b.before);
   EXPECT_EQ(a.decision, b.decision);
+  EXPECT_EQ(a.levers, b.levers);
   ASSERT_EQ(a.frame.has_value(), b.frame.has_value());
   if (!a.frame) return;
   EXPECT_EQ(a.frame->counts, b.frame->counts);
