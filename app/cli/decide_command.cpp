@@ -45,6 +45,7 @@ TraceRow decidedRow(Session& session, const Feed& feed) {
   feed();
   row.input = session.input();
   row.decision = session.decision();
+  row.levers = leversOf(row.decision, *session.parameters());
   return row;
 }
 
@@ -85,6 +86,8 @@ Result<Decided> decideTrace(const std::string& file, const ValidatedParameters& 
     row = decidedRow(session, [&] { session.replay(recorded); });
     if (&row == &decided.rows.front()) row.before = recorded.before;
     row.frame = recorded.frame;
+    row.hold = recorded.hold;
+    if (row.hold) row.levers.drawn = withBudget(row.levers.policy, row.hold->held);
     if (row.decision == recorded.decision) ++*decided.asRecorded;
   }
   return Result<Decided>(std::move(decided), trace.findings());
@@ -174,7 +177,7 @@ std::vector<std::string> ruleTexts(const ValidatedParameters& parameters) {
 
 Json toJson(const TraceRow& row, const ValidatedParameters& parameters) {
   const FrameDecision& d = row.decision;
-  const LeverChain levers = leversOf(d, *parameters);
+  const LeverChain& levers = row.levers;
   Json firing = Json::array();
   for (std::size_t i = 0; i < d.ruleFiring.count; ++i)
     firing.push_back(

@@ -52,6 +52,8 @@ Result<std::unique_ptr<WeatherView>> WeatherView::open(const Setup& setup) {
   session.setGround(setup.terrain);
   session.look(state);
   view->request_ = *session.request(0, setup.widthPx, setup.heightPx);
+  // The view sets the error itself.
+  view->request_.decision.policy.moved &= ~(1u << indexOf(Lever::screen_space_error));
   view->setWeather({});
   view->hold_.setIndex(scene::loadIndexOf(setup.terrain));
   return view;
@@ -64,7 +66,7 @@ void WeatherView::setError(double px) {
 
 void WeatherView::setWeather(const WeatherDecision& weather) {
   request_.decision.weather = weather;
-  request_.levers = leversOf(request_.decision, preset_);
+  request_.levers = leversIn(weather, request_.decision, preset_);
 }
 
 double WeatherView::vertices() {

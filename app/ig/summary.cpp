@@ -38,7 +38,7 @@ nlohmann::ordered_json leversJson(const LeverTally& tally) {
   return levers;
 }
 
-/// Who changed levers, and in how many frames: "policy allowed error in 120, budget render scale in 30".
+/// Who changed levers, and in how many frames: "; levers: Allowed error by policy in 120 frames".
 std::string leversText(const LeverTally& tally) {
   std::string text;
   for (const LeverStep step : {LeverStep::motion, LeverStep::weather, LeverStep::policy, LeverStep::budget})

@@ -184,7 +184,8 @@ void setBand(FrameDecision& decision, const BandList& bands, int band) {
 }
 
 LeverChain leversOf(const FrameDecision& d, const TuningParameters& parameters) {
-  // What the memberships alone ask for is looked up again only where a rule took their place.
+  // What the memberships alone ask for, without the hysteresis, is looked up only where a rule took their
+  // place.
   std::optional<OcclusionResolution> unruled = d.occlusionResolution;
   if (d.policy.moves(Lever::occlusion)) {
     const BandList& bands = parameters.scheme.bands;
@@ -197,6 +198,13 @@ LeverChain leversOf(const FrameDecision& d, const TuningParameters& parameters) 
   chain.policy = withPolicy(chain.weather, d.policy, d.motion, d.occlusionResolution);
   chain.drawn = chain.policy;
   return chain;
+}
+
+LeverChain leversIn(const WeatherDecision& weather, FrameDecision decision,
+                    const TuningParameters& parameters) {
+  decision.weather = weather;
+  decision.policy.moved &= ~(1u << indexOf(Lever::far_distance));
+  return leversOf(decision, parameters);
 }
 
 std::string explain(const FrameDecision& d, const ValidatedParameters& parameters) {

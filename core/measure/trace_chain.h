@@ -59,6 +59,8 @@ inline FlatChain flattenChain(const LeverChain& chain) {
 }
 
 inline void unflattenChain(const FlatChain& f, LeverChain& chain) {
+  // Traces from before there was a chain have the LOD scale alone, as it was drawn.
+  if (!f.levers[0]) chain.drawn.lodScale = chain.policy.lodScale;
   std::array<FrameLevers*, kLeverSteps> steps{&chain.preset, &chain.motion, &chain.weather, &chain.policy,
                                               &chain.drawn};
   for (std::size_t s = 0; s < kLeverSteps; ++s) {

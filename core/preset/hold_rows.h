@@ -72,7 +72,7 @@ inline constexpr std::array kHoldRows{
          .decimals = 2}),
     row<&TuningParameters::hold, &HoldParameters::particlesMinimum>(
         {.key = "hold.particles_minimum",
-         .label = "Smallest particle density",
+         .label = "Smallest particle share",
          .help = "The arbiter keeps at least this share of the drops and flakes.",
          .hard = {0, 1},
          .usual = {0, 1},

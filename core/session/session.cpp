@@ -210,7 +210,6 @@ void Session::decideInput(DecisionMemory& memory) {
   const WeatherDecision weather = decideWeather(decided_.state, *parameters_, decided_.highestGround);
   trackSignals(decided_, weather);
   decision_ = decide(decided_, weather, parameters_, memory);
-  levers_ = leversOf(decision_, *parameters_);
 }
 
 /// Decides `decided_`, with a row of the trace unless it is a free camera's.
@@ -221,7 +220,8 @@ void Session::decideWith(DecisionMemory& memory) {
   decideMs_ += millisecondsSince(start);
   motionBefore_ = before.motion;
   blurPicturedAt_.reset();
-  if (keepRows_ && !looking_) rows_.push_back({decided_, before, decision_, levers_});
+  if (keepRows_ && !looking_)
+    rows_.push_back({decided_, before, decision_, leversOf(decision_, *parameters_)});
 }
 
 /// Whether an image's own state is decided instead of each state that arrives.

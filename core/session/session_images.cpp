@@ -99,8 +99,7 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   request.fading = air_.fade.fading();
   holdBudget(request);
   blurDrawn_ = request.levers.drawn.blurStrength > 0;
-  levers_ = request.levers;
-  if (rows_.size() > completeRows_) rows_.back().levers = levers_;
+  if (rows_.size() > completeRows_) rows_.back().levers = request.levers;
   drawnDark_ = darkAt(eye.time);
   if (parameters_->symbology.enabled)
     request.symbology =

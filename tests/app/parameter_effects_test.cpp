@@ -97,7 +97,7 @@ class ParameterEffects : public test::SceneTest {
     for (const AircraftState& state : packets(over(0.5, 0.2, 0))) {
       session.fly(state);
       seen["decision " + std::to_string(i)] = explain(session.decision(), parameters) +
-                                              std::to_string(session.levers().drawn.lodScale) +
+                                              std::to_string(leversOf(session.decision(), *parameters).drawn.lodScale) +
                                               std::to_string(session.decision().motion.blur.strength) +
                                               std::to_string(session.decision().motion.blur.remainingMs);
       if (i % 18 == 11) {

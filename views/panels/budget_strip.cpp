@@ -72,9 +72,11 @@ QSize BudgetStrip::minimumSizeHint() const {
 
 void BudgetStrip::showFrame(const LiveFrame& frame, double imageMpx) {
   if (!frame.newImage || !frame.counts) return;
-  load_ = {double(frame.drawn().visible.triangles), imageMpx, imageMpx, frame.decision.weather.density,
-           frame.decision.motion.blur.strength > 0};
   if (frame.levers) drawn_ = frame.levers->drawn;
+  const FrameLevers drawn = drawn_.value_or(FrameLevers{});
+  const double sceneMpx = imageMpx * drawn.renderScale * drawn.renderScale;
+  load_ = {double(frame.drawn().visible.triangles), sceneMpx, sceneMpx,
+           frame.decision.weather.density * drawn.particleShare, drawn.blurStrength > 0};
   minute_.add(frame.time, frame.cost, load_);
   throttle_.request();
 }

@@ -25,7 +25,7 @@ class BudgetStrip : public QFrame {
   explicit BudgetStrip(Draft& draft, QWidget* parent = nullptr);
 
   void setCosts(Costs costs) { costs_ = std::move(costs); }
-  /// Counts a frame whose image was drawn. `imageMpx` are the millions of pixels of the scene.
+  /// Counts a frame whose image was drawn. `imageMpx` are the millions of pixels of the image.
   void showFrame(const LiveFrame& frame, double imageMpx);
   const QString& text() const { return text_; }
   const BudgetMinute& minute() const { return minute_; }

@@ -15,6 +15,8 @@
 
 #include "decision_log.h"
 #include "trimtab/decision/decide.h"
+#include "trimtab/hold/arbiter.h"
+#include "trimtab/motion/head_motion.h"
 #include "views/controls/ask_csv_file.h"
 #include "views/controls/bar_list.h"
 #include "views/controls/lever_chain_table.h"
@@ -166,9 +168,10 @@ void DecisionPanel::refresh() {
     lead_->setVisible(!why.isEmpty());
   }
   if (frame_.levers)
-    levers_->showChain(*frame_.levers, {tr("What the preset asks for"), fromView(toText(d.motion.reason)),
-                                        fromView(toText(d.weather.farReason)), policyReason(d.policy),
-                                        QString::fromStdString(explain(frame_.hold))});
+    levers_->showChain(*frame_.levers,
+                       {tr("What the preset asks for"), fromView(trimtab::toText(d.motion.reason)),
+                        fromView(trimtab::toText(d.weather.farReason)), policyReason(d.policy),
+                        QString::fromStdString(explain(frame_.hold))});
   std::vector<double> edges;
   for (const Band& band : p.scheme.bands.span()) edges.push_back(band.low);
   const auto text = [](double value) { return QString::number(value, 'f', 3); };

@@ -277,12 +277,17 @@ void WeatherPanel::refresh() {
   if (!any_) return;
   const WeatherDecision& d = frame_.decision.weather;
   now_->setText(fallsText(d));
-  reason_->setText(QString::fromStdString(explain(d)));
+  QString why = QString::fromStdString(explain(d));
+  if (d.farM < WeatherDecision::kUnlimited && frame_.decision.policy.moves(Lever::far_distance))
+    why += tr("; rules multiply the far distance by %1")
+               .arg(numberText(frame_.decision.policy[Lever::far_distance], 2));
+  reason_->setText(why);
   visibility_->setText(distanceText(d.visibilityM));
   density_->setText(numberText(d.density, 3));
   // A policy may multiply what the weather decides, and the image shows the product.
   const double farM = frame_.levers ? frame_.levers->drawn.farM : d.farM;
-  ratio_->setText(std::isfinite(farM) ? ratioText(d.nearFarRatio * d.farM / farM) : tr("no cut"));
+  ratio_->setText(std::isfinite(farM) ? ratioText(draft_.active()->weather.defaultNear.value() / farM)
+                                      : tr("no cut"));
   far_->setText(distanceText(farM));
   cut_->setText(tr("%1 of %2 tiles")
                     .arg(numberText(double(frame_.drawn().visible.beyondVisibility), 0),

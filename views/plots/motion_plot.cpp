@@ -20,7 +20,7 @@ MotionPlot::MotionPlot(QWidget* parent) : ClockPlot(tr("Head motion over time"),
   addLegendAbove();
   xAxis->setLabel(tr("Time (s)"));
   yAxis->setLabel(tr("Rate (deg/s)"));
-  yAxis2->setLabel(tr("LOD scale"));
+  yAxis2->setLabel(tr("LOD scale by head motion"));
   yAxis2->setVisible(true);
   for (QCPAxis* axis : {xAxis, yAxis, yAxis2}) {
     axis->setSubTicks(false);
@@ -28,7 +28,7 @@ MotionPlot::MotionPlot(QWidget* parent) : ClockPlot(tr("Head motion over time"),
   }
   xAxis->setNumberFormat(QStringLiteral("g"));
   blur_ = addGraph(xAxis, yAxis2);
-  blur_->setName(tr("blur"));
+  blur_->setName(tr("blur asked for"));
   scale_ = addGraph(xAxis, yAxis2);
   scale_->setName(tr("LOD scale, right"));
   for (QCPGraph* steps : {blur_, scale_}) steps->setLineStyle(QCPGraph::lsStepLeft);

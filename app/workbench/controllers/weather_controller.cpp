@@ -37,7 +37,7 @@ void WeatherController::calibrate() {
     return at_.messages.note(tr("Open a terrain first: the weather is calibrated over an image of it"));
   FrameRequest request = *frame_.shown();
   request.overlays = {};
-  request.levers.drawn = withMotion(request.levers.preset, {});
+  request.decision.motion = {};
   WeatherStage stage;
   stage.farthestM = farthestM(request.eye, terrain_.database()->info());
   const auto& last = at_.viewport.lastResult();
@@ -46,9 +46,10 @@ void WeatherController::calibrate() {
                          .arg(request.view.heightPx)
                          .arg(last ? last->visible.triangles : 0)
                          .arg(QString::fromStdString(at_.viewport.gl().renderer));
-  stage.draw = [this, request](const WeatherDecision& weather) mutable -> std::optional<WeatherStage::Frame> {
+  stage.draw = [this, request, preset = *at_.draft.active()](
+                   const WeatherDecision& weather) mutable -> std::optional<WeatherStage::Frame> {
     request.decision.weather = weather;
-    request.levers.drawn = withWeather(request.levers.drawn, weather);
+    request.levers = leversIn(weather, request.decision, preset);
     request.fading.reset();
     const auto drawn = at_.viewport.measure(request);
     if (!drawn) return std::nullopt;

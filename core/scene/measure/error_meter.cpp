@@ -314,8 +314,7 @@ FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const Fram
   plant(m.renderer, {});
   bound.restore();
 
-  const GeometricError geometric =
-      geometricError(upTo(request.levers.drawn.farM, reference.distances), distances, v);
+  const GeometricError geometric = geometricError(upTo(farCutM(request), reference.distances), distances, v);
   error.geometricMaxPx = geometric.maxPx;
   error.geometricMeanPx = geometric.meanPx;
   error.psnrDb = psnrDb(reference.pixels, ours, v.widthPx, v.heightPx);

@@ -98,7 +98,7 @@ TEST(HeadInput, multipliesThePresetsLodScaleOnce) {
   session.head().useLog(sweep());
   for (int i = 0; i < 132; ++i) session.fly(level(i / 60.0));
   ASSERT_EQ(session.decision().motion.lodScale, 2);
-  EXPECT_EQ(session.levers().drawn.lodScale, 3);
+  EXPECT_EQ(leversOf(session.decision(), *session.parameters()).drawn.lodScale, 3);
   EXPECT_EQ(session.request(0, 640, 480)->levers.drawn.lodScale, 3);
 }
 

@@ -31,6 +31,10 @@ FrameDecision decide(const FrameInput& input, const WeatherDecision& weather,
 
 /// Returns the chain of the levers up to the policy (frame_levers.h); `drawn` is as the policy leaves them.
 LeverChain leversOf(const FrameDecision& decision, const TuningParameters& parameters);
+/// Returns the chain in another weather, whose far distance no rule changes: for measuring a weather by
+/// itself.
+LeverChain leversIn(const WeatherDecision& weather, FrameDecision decision,
+                    const TuningParameters& parameters);
 
 /// Sets scheme and occlusion resolution to those of a band; -1 is the scheme *frustum*.
 void setBand(FrameDecision& decision, const BandList& bands, int band);

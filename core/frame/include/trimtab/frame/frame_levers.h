@@ -11,23 +11,26 @@
 #include "trimtab/frame/hold_decision.h"
 #include "trimtab/preset/parameters.h"
 
-/// The chain from a preset to the pixels: what may change how coarsely an image is drawn, who changes it, and
-/// in which order. Each step is one function below. It is given the levers and returns them, and its reason
-/// stands in the decision that it is given. The chain is kept with the request, in the trace and in the
-/// workbench. The renderer reads its last link, and nothing after it sets or scales a lever.
+/// Who may change how coarsely an image is drawn, and in which order: preset, head motion, weather, policy,
+/// budget. Each step is one function below. Steps 2 to 5 take the levers and return them; why they did it
+/// stands in MotionDecision, WeatherDecision, PolicyOutcome and HoldDecision. The levers after every step are
+/// kept in FrameRequest, in the trace, and in the docks Decision and Budget. The renderer reads
+/// `LeverChain::drawn`; in flight nothing sets a lever after that.
 namespace trimtab {
 
-/// The levers of one image.
+/// The levers of one image. A default one is full detail with an error of 2 px.
 struct FrameLevers {
-  double errorPx = 2;      ///< allowed screen-space error of tiles and patches, pixels of the image
-  double treeErrorPx = 1;  ///< that of static trees; whoever changes one changes both by the same factor
-  double lodScale = 1;     ///< multiplies both; 1 is full detail, larger is coarser
-  double levelSpread = 1;  ///< how far apart the distances lie at which levels are exchanged (LodParameters)
+  double errorPx = 2;  ///< allowed screen-space error of tiles and patches, pixels of the image
+  /// That of static trees. The preset sets it; policy and budget change it by the factor of `errorPx`. It
+  /// does not count with StaticDistanceRule::factor.
+  double treeErrorPx = 1;
+  double lodScale = 1;     ///< multiplies both errors; 1 is full detail, larger is coarser
+  double levelSpread = 1;  ///< as LodParameters::spread; 1 leaves the distances at which levels are exchanged
   double farM = WeatherDecision::kUnlimited;  ///< nothing farther from the eye is drawn, metres
   double renderScale = 1;    ///< the part of the image's width and height at which the scene is drawn
-  double particleShare = 1;  ///< the share of the drops and flakes of the weather that is drawn
-  double blurStrength = 0;   ///< as MotionBlur::strength; 0 runs no pass
-  std::optional<OcclusionResolution> occlusion;  ///< if unset, no occlusion test of any kind
+  double particleShare = 1;  ///< the share of drops and flakes that is drawn
+  double blurStrength = 0;   ///< as MotionBlur::strength; at 0 no blur pass runs
+  std::optional<OcclusionResolution> occlusion;  ///< if unset, nothing is tested for occlusion
 
   friend bool operator==(const FrameLevers&, const FrameLevers&) = default;
 };
@@ -48,27 +51,28 @@ struct LeverChain {
   friend bool operator==(const LeverChain&, const LeverChain&) = default;
 };
 
-/// 1. What the preset asks for, with the occlusion resolution of its memberships (documents A and B).
+/// 1. Returns what the preset asks for. `occlusion` is what the memberships of altitude and pitch choose
+/// (documents A and B, see resources/docs/glossary.md). Render scale and particle share begin at 1.
 FrameLevers presetLevers(const TuningParameters& preset, std::optional<OcclusionResolution> occlusion);
-/// 2. Head motion multiplies the LOD scale and brings the blur (document C).
+/// 2. Head motion multiplies the LOD scale and sets the blur (document C).
 FrameLevers withMotion(FrameLevers levers, const MotionDecision& motion);
-/// 3. The weather sets the far distance (document D).
+/// 3. The weather sets the far distance, which nothing set before (document D).
 FrameLevers withWeather(FrameLevers levers, const WeatherDecision& weather);
-/// 4. The rules of a policy replace the preset's allowed error and LOD scale, which head motion still
-/// multiplies; they choose another occlusion resolution by its total, which `occlusion` is the outcome of, and
-/// multiply the far distance, the blur, the particles and the render scale.
+/// 4. Levers that some rule of the policy moves change, and no others. Allowed error, particle share and
+/// render scale take the policy's value; the LOD scale takes it times that of head motion; far distance and
+/// blur are multiplied by it. `occlusion` is the resolution that the policy's total chose.
 FrameLevers withPolicy(FrameLevers levers, const PolicyOutcome& policy, const MotionDecision& motion,
                        std::optional<OcclusionResolution> occlusion);
-/// 5. The budget raises the allowed error and lowers render scale, particles and blur until the image's
-/// predicted time fits.
+/// 5. Applies what the arbiter of the budget decided: allowed error, render scale and particle share are its
+/// values, and the blur is multiplied by its share.
 FrameLevers withBudget(FrameLevers levers, const HeldLevers& held);
 
-/// One row a lever: its names, and where a chain has it.
+/// The names of a lever, and its field.
 struct FrameLeverRow {
-  std::string_view key;    ///< as files and traces spell it
+  std::string_view key;    ///< as rules, JSON and reports spell it
   std::string_view label;  ///< as people read it
   std::string_view unit;
-  double FrameLevers::* value;  ///< null for the occlusion resolution, whose value is its width
+  double FrameLevers::*value;  ///< null for the occlusion resolution, whose value is its width
 };
 
 /// Every lever except that of static trees, which follows the allowed error.
@@ -87,15 +91,17 @@ inline constexpr std::array<FrameLeverRow, 8> kFrameLeverRows{{
 
 /// Returns the lever's value; 0 for an occlusion resolution that is unset.
 double valueOf(const FrameLevers& levers, const FrameLeverRow& row);
-/// Returns which step changed the lever last: the preset if none did.
+/// Returns the last step after which the lever's value is another than before it: the preset if there is
+/// none.
 LeverStep lastChange(const LeverChain& chain, const FrameLeverRow& row);
 
-/// Returns who set the lever and who changed it to what, in order: "preset 2 px, policy 4 px, budget 5.66 px".
+/// Returns who set the lever and who changed it to what, in order: "preset 2 px, policy 4 px, budget 5.66
+/// px".
 std::string explain(const LeverChain& chain, const FrameLeverRow& row);
-/// Returns a value with its unit: "4 px", "400 x 300 px", "none".
+/// Returns a value with its unit: "4 px", "400 x 300 px", "none", "unlimited".
 std::string valueText(const FrameLevers& levers, const FrameLeverRow& row);
 
-/// Returns the name of a step, as traces, docks and reports show it.
+/// Returns the name of a step, as docks and reports show it.
 std::string_view toText(LeverStep step);
 
 }  // namespace trimtab

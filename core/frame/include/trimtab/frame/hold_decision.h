@@ -9,8 +9,8 @@
 /// into the request.
 namespace trimtab {
 
-/// The levers that the arbiter may lower, with the values that reach the renderer. In the units of their rows
-/// in levers.h.
+/// The levers that the arbiter may lower; withBudget() in frame_levers.h applies them. In the units of their
+/// rows in levers.h.
 struct HeldLevers {
   double errorPx = 0;        ///< allowed screen-space error
   double renderScale = 1;    ///< part of the image's width and height

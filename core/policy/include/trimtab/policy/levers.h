@@ -99,7 +99,7 @@ inline constexpr std::array kLeverRows{
              "multiplies the weather's far cut"},
     LeverRow{Lever::particle_density,
              "particle_density",
-             "Particle density",
+             "Particle share",
              "",
              1,
              {0, 1},

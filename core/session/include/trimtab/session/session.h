@@ -86,9 +86,6 @@ class Session {
   /// Returns the decision for the last packet; after `setParameters`, the decision that it would get now.
   /// Head motion goes from the packet before it, because no time passes in an edit.
   const FrameDecision& decision() const { return decision_; }
-  /// Returns the chain of the levers of the last image requested (frame_levers.h); before it, that of the last
-  /// decision.
-  const LeverChain& levers() const { return levers_; }
   /// Returns the memory that the next packet will be decided with.
   const DecisionMemory& memory() const { return memory_; }
   LinkState linkState(double now) const;
@@ -181,7 +178,6 @@ class Session {
   std::optional<FrameInput> current_;  ///< of the newest state
   FrameInput decided_;                 ///< of the last decision
   FrameDecision decision_;
-  LeverChain levers_;
   ImageRate imageRate_;
   std::optional<std::uint64_t> lastVertices_;  ///< of the last finished image
   FrameCost lastCost_;
