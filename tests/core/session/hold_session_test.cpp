@@ -303,7 +303,7 @@ TEST(HoldSession, aTraceReplaysEveryLeverToTheBit) {
     replay.replay((*read)[i]);
     const FrameRequest request = *replay.request((*read)[i].input.state.time, 640, 360);
     EXPECT_EQ(request.hold, flown.requests[i].hold) << i;
-    EXPECT_EQ(request.levers.drawn.renderScale, flown.requests[i].renderScale) << i;
+    EXPECT_EQ(request.levers.drawn.renderScale, flown.requests[i].levers.drawn.renderScale) << i;
     EXPECT_EQ(request.levers.drawn.errorPx, flown.requests[i].levers.drawn.errorPx) << i;
     lowered += request.hold.held != request.hold.asked;
   }
@@ -324,10 +324,10 @@ TEST(HoldSession, aTraceWithInputsOfTheArbiterReplaysTheSameLevers) {
     replay.replay(row);
     const FrameRequest request = *replay.request(row.input.state.time, 640, 360);
     EXPECT_EQ(request.hold, *row.hold);
-    EXPECT_EQ(request.renderScale, row.hold->held.renderScale);
-    EXPECT_EQ(request.lod.screenSpaceError.value(), row.hold->held.errorPx);
-    unknown += row.hold->reason == HoldReason::cost_unknown && request.renderScale == 1;
-    held += row.hold->reason == HoldReason::held && request.lod.screenSpaceError == Pixels{16};
+    EXPECT_EQ(request.levers.drawn.renderScale, row.hold->held.renderScale);
+    EXPECT_EQ(request.levers.drawn.errorPx, row.hold->held.errorPx);
+    unknown += row.hold->reason == HoldReason::cost_unknown && request.levers.drawn.renderScale == 1;
+    held += row.hold->reason == HoldReason::held && request.levers.drawn.errorPx == 16;
   }
   EXPECT_EQ(unknown, 3);
   EXPECT_EQ(held, 5);
