@@ -16,15 +16,6 @@ std::optional<TerrainForm> formOf(const FrameRequest& r, const LoadIndex& index)
   return formDrawn(r, {index.tiles != nullptr, index.patches != nullptr, index.trees != nullptr});
 }
 
-/// Reports whether an eye moves or turns by more than nothing: a centimetre, or a ten-thousandth of a radian.
-bool moves(const EyePose& from, const EyePose& to) {
-  constexpr double kNothingM = 0.01, kNothingRad = 1e-4;
-  if (!(length(to.position - from.position) <= kNothingM)) return true;
-  for (std::size_t i = 0; i < 3; ++i)
-    if (!(length(to.axes.row[i] - from.axes.row[i]) <= kNothingRad)) return true;
-  return false;
-}
-
 }  // namespace
 
 void FrameHold::setIndex(std::shared_ptr<const LoadIndex> index) {
@@ -106,7 +97,6 @@ HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye
       const LoadView next = viewOf(request, coming[i]);
       const TriangleLadder ladder = count(request, next);
       const double ground = groundMpx(request, next, coming[i]);
-      g.moves = g.moves || moves(view.eye, next.eye);
       if (i + 1 == kImagesAhead) {
         prediction.triangles = ladder;
         for (double& triangles : prediction.triangles) triangles *= correction_;
@@ -213,7 +203,7 @@ void FrameHold::finished(const FrameResult& result, const FrameCost& cost) {
     constexpr double kGain = 0.2;
     correction_ += kGain * (std::clamp(drawn / counted, 0.05, 4.0) - correction_);
   }
-  if (!exchanged_) model_.observe(load, cost);
+  exchanged_ ? model_.leversMoved() : model_.observe(load, cost);
 }
 
 }  // namespace trimtab
