@@ -133,13 +133,11 @@ class Search {
   /// Returns the time of the quickest setting.
   double leastMs() const {
     const auto last = [](std::size_t size) { return static_cast<std::uint8_t>(size - 1); };
-    HoldSteps s{0, last(choice_.scale.size), last(choice_.particles.size), last(choice_.blur.size)};
     double least = kInfinity;
-    for (std::size_t error = 0; error < choice_.error.size;
-         error = std::max(error + 1, choice_.error.first)) {
-      s.error = static_cast<std::uint8_t>(error);
-      least = std::min(least, timeAt(s));
-    }
+    forEachError([&](std::uint8_t error) {
+      least = std::min(least, timeAt({error, last(choice_.scale.size), last(choice_.particles.size),
+                                      last(choice_.blur.size)}));
+    });
     return least;
   }
   /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do and lose less
@@ -160,17 +158,20 @@ class Search {
   }
 
  private:
-  /// Visits every setting: what is asked for, and the places above it.
+  /// Visits what is asked for, and the places above it.
+  template <class Visit>
+  void forEachError(const Visit& visit) const {
+    for (std::size_t e = 0; e < choice_.error.size; e = std::max(e + 1, choice_.error.first))
+      visit(static_cast<std::uint8_t>(e));
+  }
   template <class Visit>
   void forEach(const Visit& visit) const {
-    HoldSteps s;
-    for (std::size_t error = 0; error < choice_.error.size;
-         error = std::max(error + 1, choice_.error.first)) {
-      s.error = static_cast<std::uint8_t>(error);
+    forEachError([&](std::uint8_t error) {
+      HoldSteps s{error};
       for (s.renderScale = 0; s.renderScale < choice_.scale.size; ++s.renderScale)
         for (s.particles = 0; s.particles < choice_.particles.size; ++s.particles)
           for (s.blur = 0; s.blur < choice_.blur.size; ++s.blur) visit(s);
-    }
+    });
   }
 
   const HoldGiven& given_;
@@ -185,13 +186,6 @@ double passed(const HoldGiven& given, HoldMemory& memory) {
   return ms > 0 ? ms : 0;
 }
 
-/// Returns a memory that knows nothing but the time of the last image.
-HoldMemory restarted(const HoldMemory& memory) {
-  HoldMemory fresh;
-  fresh.timeS = memory.timeS;
-  return fresh;
-}
-
 /// Notes to which place the allowed error is to go, so that its meshes are named. Returns false while a finer
 /// one has to wait for them.
 bool meshesReady(const HoldGiven& given, std::uint8_t from, std::uint8_t to, double ms, HoldMemory& memory) {
@@ -202,21 +196,14 @@ bool meshesReady(const HoldGiven& given, std::uint8_t from, std::uint8_t to, dou
   return !waits || memory.waitedMs >= kMostBuildingMs;
 }
 
-/// Averages the model's uncertainty into the memory, because a single late image must not lower anything.
-void noteBand(double bandMs, HoldMemory& memory) {
-  constexpr double kShare = 0.02;
-  const double band = std::isfinite(bandMs) ? std::max(bandMs, 0.0) : 0;
-  memory.bandMs = memory.begun ? memory.bandMs + kShare * (band - memory.bandMs) : band;
-}
-
 /// Returns what a prediction may reach: the budget without its margin, and less if the model is so uncertain
 /// that an image which is late by hold.caution bands would take more than 1.1 of the budget. Of a normal
 /// distribution one image in a hundred is later than 1.41 of its 90 % bands (2.326 / 1.645).
 double limitOf(double budgetMs, double bandMs, const HoldParameters& p) {
   constexpr double kOver = 1.1, kLeast = 0.75;
   const double most = budgetMs * (1 - p.margin.value());
-  const double sure = std::max(kOver * budgetMs - p.caution.value() * bandMs, kLeast * budgetMs);
-  return std::min(most, sure);
+  const double sure = kOver * budgetMs - p.caution.value() * bandMs;
+  return std::min(most, std::isfinite(sure) ? std::max(sure, kLeast * budgetMs) : most);
 }
 
 bool isNumber(const HoldGiven& g) {
@@ -262,22 +249,19 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
   const bool budget = given.budgetMs > 0 && std::isfinite(given.budgetMs);
   if (!p.enabled || !budget || !given.cost.known || !isNumber(given)) {
     d.reason = !p.enabled ? HoldReason::off : !budget ? HoldReason::no_budget : HoldReason::cost_unknown;
-    memory = restarted(memory);
+    memory = {.steps = {}, .timeS = memory.timeS};
     return d;
   }
-  noteBand(given.cost.bandMs, memory);
-  d.limitMs = limitOf(given.budgetMs, memory.bandMs, p);
   d.bandMs = given.cost.bandMs;
+  d.limitMs = limitOf(given.budgetMs, d.bandMs, p);
 
   const Choice choice = choiceOf(given, p);
   const HoldSteps before = within(choice, memory.steps);
-  const std::size_t kept = memory.begun && before.error == memory.steps.error ? before.error : kNoPlace;
-  const Search search(given, choice, kept);
+  const Search search(given, choice, memory.begun ? before.error : kNoPlace);
   d.askedMs = d.heldMs = search.predictAt({});
   memory.distrusts = given.cost.offMs > kMostOff * given.budgetMs / (memory.distrusts ? 2 : 1);
   if (memory.distrusts) {
-    memory = restarted(memory);
-    memory.distrusts = true;
+    memory = {.steps = {}, .timeS = memory.timeS, .distrusts = true};
     d.reason = HoldReason::not_trusted;
     return d;
   }
@@ -343,36 +327,26 @@ HoldGains gainsOf(const HoldGiven& given, const HoldDecision& d, const HoldParam
 }
 
 std::string explain(const HoldDecision& d) {
-  char text[240] = "";
-  const auto write = [&](const char* format, auto... values) {
-    std::snprintf(text, sizeof text, format, values...);
-    return std::string(text);
-  };
-  const std::string levers = write("%.3g px, render scale %.2f, particles %.2f, blur %.2f", d.held.errorPx,
-                                   d.held.renderScale, d.held.particleShare, d.held.blurShare);
-  const std::string times = write("%.1f ms predicted for %.1f ms, %.1f ms as asked", d.heldMs.total(),
-                                  d.limitMs, d.askedMs.total());
-  switch (d.reason) {
-    case HoldReason::off:
-      return "the budget is not held";
-    case HoldReason::no_budget:
-      return "no budget: it is not a number above 0";
-    case HoldReason::cost_unknown:
-      return "the cost of an image is not known yet";
-    case HoldReason::fits:
-      return "what is asked for fits: " + times;
-    case HoldReason::lowered:
-      return "lowered to " + levers + ": " + times;
-    case HoldReason::held:
-      return "held at " + levers + ": " + times;
-    case HoldReason::restored:
-      return "restored to " + levers + ": " + times;
-    case HoldReason::out_of_reach:
-      return "out of reach at " + levers + ": " + times;
-    case HoldReason::not_trusted:
-      return "left as asked for, because the last predictions were too far off: " + times;
-  }
-  return "";
+  constexpr std::array<const char*, kHoldReasons> kWords{
+      "the budget is not held",
+      "no budget: it is not a number above 0",
+      "the cost of an image is not known yet",
+      "what is asked for fits",
+      "lowered to ",
+      "held at ",
+      "restored to ",
+      "out of reach at ",
+      "left as asked for, because the last predictions were too far off"};
+  const auto reason = static_cast<std::size_t>(d.reason);
+  if (reason >= kWords.size()) return "";
+  if (d.reason < HoldReason::fits) return kWords[reason];
+  char levers[120] = "", times[120] = "";
+  if (d.reason != HoldReason::fits && d.reason != HoldReason::not_trusted)
+    std::snprintf(levers, sizeof levers, "%.3g px, render scale %.2f, particles %.2f, blur %.2f",
+                  d.held.errorPx, d.held.renderScale, d.held.particleShare, d.held.blurShare);
+  std::snprintf(times, sizeof times, ": %.1f ms predicted for %.1f ms, %.1f ms as asked", d.heldMs.total(),
+                d.limitMs, d.askedMs.total());
+  return std::string(kWords[reason]) + levers + times;
 }
 
 }  // namespace trimtab

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
@@ -9,8 +10,6 @@
 namespace trimtab {
 namespace {
 
-/// Below so many images a prediction would be little more than the first image's time.
-constexpr std::size_t kFewestImages = 8;
 /// What the first drops of a fade take is the pass, not the drops, and would give their cost a scale that is
 /// far too large.
 constexpr double kFewestParticles = 0.05;
@@ -52,10 +51,9 @@ void push(std::deque<double>& values, std::size_t most, double value) {
 }
 double medianOf(const std::deque<double>& values) {
   if (values.empty()) return 0;
-  std::array<double, kRecent> sorted{};
-  const auto end = std::copy(values.begin(), values.end(), sorted.begin());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(sorted.begin(), middle, end);
+  std::vector<double> sorted(values.begin(), values.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
   return *middle;
 }
 
@@ -142,10 +140,6 @@ double ClockModel::offMs() const {
   return medianOf(off_);
 }
 
-bool ClockModel::known() const {
-  return ground_.state().images >= kFewestImages;
-}
-
 ClockModel::State ClockModel::state() const {
   return {ground_.state(), weather_.state(), blur_.state(), other_, band_};
 }
@@ -187,11 +181,6 @@ CostCoefficients CostModel::coefficients(const FrameLoad& load) const {
   c.offMs = longer->offMs();
   c.known = processor_.known() && (loads_.empty() || gpu_.known());
   return c;
-}
-
-void CostModel::restore(const State& state) {
-  processor_.restore(state.processor);
-  gpu_.restore(state.gpu);
 }
 
 }  // namespace trimtab

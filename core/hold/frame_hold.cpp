@@ -81,33 +81,31 @@ HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye
   if (falls.kind != Precipitation::none) g.particles = falls.amount * request.particleShare;
   g.blurs = blur.strength > 0;
   g.imageMpx = 1e-6 * request.view.widthPx * request.view.heightPx;
-  if (!index_) {
-    countedNow_.fill(lastTriangles_);
-    groundNowMpx_ = g.imageMpx;
-    g.triangles = countedNow_;
-    g.groundMpx = groundNowMpx_;
-  } else {
+  countedNow_.fill(lastTriangles_);
+  groundNowMpx_ = g.imageMpx;
+  if (index_) {
     const ComingEye here{request.eye, request.attitude};
     const LoadView view = viewOf(request, here);
     countedNow_ = count(request, view);
     groundNowMpx_ = groundMpx(request, view, here);
-    g.triangles = countedNow_;
-    g.groundMpx = groundNowMpx_;
-    for (std::size_t i = 0; i < coming.size(); ++i) {
-      const LoadView next = viewOf(request, coming[i]);
-      const TriangleLadder ladder = count(request, next);
-      const double ground = groundMpx(request, next, coming[i]);
-      if (i + 1 == kImagesAhead) {
-        prediction.triangles = ladder;
-        for (double& triangles : prediction.triangles) triangles *= correction_;
-        prediction.groundMpx = ground;
-        prediction.known = true;
-      }
-      for (std::size_t k = 0; k < kErrorSteps; ++k) g.triangles[k] = std::max(g.triangles[k], ladder[k]);
-      g.groundMpx = std::max(g.groundMpx, ground);
-    }
-    for (double& triangles : g.triangles) triangles *= correction_;
   }
+  g.triangles = countedNow_;
+  g.groundMpx = groundNowMpx_;
+  for (std::size_t i = 0; index_ && i < coming.size(); ++i) {
+    const LoadView next = viewOf(request, coming[i]);
+    const TriangleLadder ladder = count(request, next);
+    const double ground = groundMpx(request, next, coming[i]);
+    if (i + 1 == kImagesAhead) {
+      prediction.triangles = ladder;
+      for (double& triangles : prediction.triangles) triangles *= correction_;
+      prediction.groundMpx = ground;
+      prediction.known = true;
+    }
+    for (std::size_t k = 0; k < kErrorSteps; ++k) g.triangles[k] = std::max(g.triangles[k], ladder[k]);
+    g.groundMpx = std::max(g.groundMpx, ground);
+  }
+  if (index_)
+    for (double& triangles : g.triangles) triangles *= correction_;
   // The band is that of an image as it is likely to be drawn. What is asked for may be far from all that was
   // drawn lately, and its band so wide that the arbiter would give up what it need not.
   const HeldLevers likely = memory_.begun && held_.renderScale > 0 ? held_ : g.asked;

@@ -37,8 +37,6 @@ struct HoldGiven {
   TriangleLadder triangles{};  ///< by allowed error; the most of the views counted
   double meshesLeft = 0;       ///< named by FrameHold::nodesAhead, that there was no time to build
   CostCoefficients cost;
-
-  friend bool operator==(const HoldGiven&, const HoldGiven&) = default;
 };
 
 /// Where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale
@@ -54,12 +52,10 @@ struct HoldMemory {
   HoldSteps steps;
   double timeS = 0;   ///< of the last image
   double calmMs = 0;  ///< how long there has been head-room
-  double bandMs = 0;  ///< the model's uncertainty, averaged over some 50 images
   bool begun = false;
   bool distrusts = false;        ///< predictions have been too far off
   std::uint8_t wantedError = 0;  ///< the place of the allowed error that there is head-room for
   double waitedMs = 0;           ///< how long that has waited for its meshes
-  friend bool operator==(const HoldMemory&, const HoldMemory&) = default;
 };
 
 /// Decides the levers of one image. It is pure but for `memory`, and allocates nothing. If the budget or the

@@ -35,8 +35,6 @@ struct ClockCoefficients {
   double perParticles = 0, perWeatherMpx = 0;
   double perBlurMpx = 0;
   double other = 0;
-
-  friend bool operator==(const ClockCoefficients&, const ClockCoefficients&) = default;
 };
 
 /// The model as plain numbers; a prediction needs nothing else. The coefficients themselves are those of the
@@ -46,8 +44,6 @@ struct CostCoefficients : ClockCoefficients {
   double bandMs = 0;   ///< the 90 % band of the image that is about to be drawn, to either side
   double offMs = 0;    ///< the median by which the last predictions were off, to either side
   bool known = false;  ///< enough images were measured to predict one
-
-  friend bool operator==(const CostCoefficients&, const CostCoefficients&) = default;
 };
 
 /// Returns the time of an image, by stage: that of the clock which takes longer for this load.
@@ -79,7 +75,9 @@ class ClockModel {
   double bandMs(const FrameLoad& load) const;
   /// Returns the median by which the last predictions were off, milliseconds.
   double offMs() const;
-  bool known() const;
+  /// Below so many images a prediction would be little more than the first image's time.
+  static constexpr double kFewestImages = 8;
+  bool known() const { return ground_.state().images >= kFewestImages; }
   std::size_t images() const { return images_; }
   const std::optional<Finding>& whyAnew() const { return whyAnew_; }
 
@@ -154,7 +152,7 @@ class CostModel {
     }
   };
   State state() const { return {processor_.state(), gpu_.state()}; }
-  void restore(const State& state);
+  void restore(const State& state) { processor_.restore(state.processor), gpu_.restore(state.gpu); }
 
  private:
   ClockModel processor_, gpu_;

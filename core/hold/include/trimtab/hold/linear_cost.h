@@ -65,7 +65,7 @@ class LinearCost {
     for (std::size_t i = 0; i < N; ++i)
       for (std::size_t j = 0; j < N; ++j) state_.covariance[i][j] -= p[i] * p[j] / variance;
     keepCostsPositive();
-    for (std::size_t i = 0; i < N; ++i) drift(i);
+    for (std::size_t i = 0; i < N; ++i) loosen(i, i == 0 ? kFirstDrift : kDrift);
     state_.noise += kNoiseGain * (counted * counted - known - state_.noise);
     state_.noise = std::clamp(state_.noise, kLeastNoise * ms * kLeastNoise * ms,
                               cost_bounds::kLongestMs * cost_bounds::kLongestMs);
@@ -175,8 +175,6 @@ class LinearCost {
       for (std::size_t j = 0; j < N; ++j) product[i] += state_.covariance[i][j] * x[j];
     return product;
   }
-
-  void drift(std::size_t i) { loosen(i, i == 0 ? kFirstDrift : kDrift); }
 
   /// Makes a coefficient less certain by a part of its scale.
   void loosen(std::size_t i, double partOfScale) {
