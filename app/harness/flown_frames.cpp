@@ -163,7 +163,7 @@ Feedback feedbackOf(const ValidatedParameters& parameters) {
   }
   if (parameters->hold.enabled) {
     feedback.times = true;
-    remember(rememberedMs() / 1e3, SignalTracker::kLoadImages);
+    remember(rememberedMs(parameters->hold) / 1e3, SignalTracker::kLoadImages);
   }
   return feedback;
 }

@@ -63,6 +63,7 @@ std::string heldText(const Summary& s) {
   };
   append(", cost not known yet in ", HoldReason::cost_unknown);
   append(", no budget in ", HoldReason::no_budget);
+  append(", predictions not trusted in ", HoldReason::not_trusted);
   return text;
 }
 

@@ -18,7 +18,7 @@
 namespace trimtab {
 namespace {
 
-constexpr std::string_view kHeader = "trimtab-cost-model 2";
+constexpr std::string_view kHeader = "trimtab-cost-model 3";
 
 constexpr int kFirstNumber = 3;  ///< its line
 

@@ -11,15 +11,6 @@ std::optional<TerrainForm> formOf(const FrameRequest& r, const LoadIndex& index)
   return formDrawn(r, {index.tiles != nullptr, index.patches != nullptr, index.trees != nullptr});
 }
 
-/// Reports whether an eye moves or turns by more than nothing: a centimetre, or a ten-thousandth of a radian.
-bool moves(const EyePose& from, const EyePose& to) {
-  constexpr double kNothingM = 0.01, kNothingRad = 1e-4;
-  if (!(length(to.position - from.position) <= kNothingM)) return true;
-  for (std::size_t i = 0; i < 3; ++i)
-    if (!(length(to.axes.row[i] - from.axes.row[i]) <= kNothingRad)) return true;
-  return false;
-}
-
 }  // namespace
 
 void FrameHold::setIndex(std::shared_ptr<const LoadIndex> index) {
@@ -85,34 +76,31 @@ HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye
   if (falls.kind != Precipitation::none) g.particles = falls.amount * asked.particleShare;
   g.blurs = asked.blurStrength > 0;
   g.imageMpx = 1e-6 * request.view.widthPx * request.view.heightPx;
-  if (!index_) {
-    countedNow_.fill(lastTriangles_);
-    groundNowMpx_ = g.imageMpx;
-    g.triangles = countedNow_;
-    g.groundMpx = groundNowMpx_;
-  } else {
+  countedNow_.fill(lastTriangles_);
+  groundNowMpx_ = g.imageMpx;
+  if (index_) {
     const ComingEye here{request.eye, request.attitude};
     const LoadView view = viewOf(request, here);
     countedNow_ = count(request, view);
     groundNowMpx_ = groundMpx(request, view, here);
-    g.triangles = countedNow_;
-    g.groundMpx = groundNowMpx_;
-    for (std::size_t i = 0; i < coming.size(); ++i) {
-      const LoadView next = viewOf(request, coming[i]);
-      const TriangleLadder ladder = count(request, next);
-      const double ground = groundMpx(request, next, coming[i]);
-      g.moves = g.moves || moves(view.eye, next.eye);
-      if (i + 1 == kImagesAhead) {
-        prediction.triangles = ladder;
-        for (double& triangles : prediction.triangles) triangles *= correction_;
-        prediction.groundMpx = ground;
-        prediction.known = true;
-      }
-      for (std::size_t k = 0; k < kErrorSteps; ++k) g.triangles[k] = std::max(g.triangles[k], ladder[k]);
-      g.groundMpx = std::max(g.groundMpx, ground);
-    }
-    for (double& triangles : g.triangles) triangles *= correction_;
   }
+  g.triangles = countedNow_;
+  g.groundMpx = groundNowMpx_;
+  for (std::size_t i = 0; index_ && i < coming.size(); ++i) {
+    const LoadView next = viewOf(request, coming[i]);
+    const TriangleLadder ladder = count(request, next);
+    const double ground = groundMpx(request, next, coming[i]);
+    if (i + 1 == kImagesAhead) {
+      prediction.triangles = ladder;
+      for (double& triangles : prediction.triangles) triangles *= correction_;
+      prediction.groundMpx = ground;
+      prediction.known = true;
+    }
+    for (std::size_t k = 0; k < kErrorSteps; ++k) g.triangles[k] = std::max(g.triangles[k], ladder[k]);
+    g.groundMpx = std::max(g.groundMpx, ground);
+  }
+  if (index_)
+    for (double& triangles : g.triangles) triangles *= correction_;
   // The band is that of an image as it is likely to be drawn. What is asked for may be far from all that was
   // drawn lately, and its band so wide that the arbiter would give up what it need not.
   const HeldLevers likely = memory_.begun && held_.renderScale > 0 ? held_ : g.asked;
@@ -203,7 +191,7 @@ void FrameHold::finished(const FrameResult& result, const FrameCost& cost) {
     constexpr double kGain = 0.2;
     correction_ += kGain * (std::clamp(drawn / counted, 0.05, 4.0) - correction_);
   }
-  if (!exchanged_) model_.observe(load, cost);
+  exchanged_ ? model_.leversMoved() : model_.observe(load, cost);
 }
 
 }  // namespace trimtab

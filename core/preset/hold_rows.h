@@ -25,10 +25,9 @@ inline constexpr std::array kHoldRows{
     row<&TuningParameters::hold, &HoldParameters::caution>(
         {.key = "hold.caution",
          .label = "Caution",
-         .help =
-             "An image that takes longer than predicted by so many of the model's 90 % bands still ends "
-             "within 1.1 of the budget. 1.41 lets one image in a hundred end later. 0 holds the median "
-             "image to the budget. What is restored must leave room for as many of the bands that it adds.",
+         .help = "An image that takes longer than predicted by so many of the model's 90 % bands still ends "
+                 "within 1.1 of the budget. 1.41 lets one image in a hundred end later. 0 holds the median "
+                 "image to the budget.",
          .hard = {0, 5},
          .usual = {0, 2},
          .step = 0.05,
@@ -36,9 +35,8 @@ inline constexpr std::array kHoldRows{
     row<&TuningParameters::hold, &HoldParameters::calm>(
         {.key = "hold.calm_ms",
          .label = "Calm before restoring",
-         .help = "Head-room must last so long before levers are restored, so that a glance changes the "
-                 "level of detail twice at most. While the eye moves, the allowed error waits for 1 s, or "
-                 "for 0.4 s if there is ample room. Lowering never waits.",
+         .help = "Levers are restored after a finer setting has been predicted to fit for so long without "
+                 "interruption. Lowering never waits.",
          .hard = {0, 10000},
          .usual = {0, 1000},
          .step = 10,

@@ -68,11 +68,11 @@ TEST_F(IgCostModel, withANumberThatNoneCanHaveIsNamedAndLearnedAnew) {
     std::size_t line;
     const char *number, *key;
   };
-  for (const Damage& damage : {Damage{0, "1e308", "ground.coefficient[0]"},
-                               {1, "1e150", "ground.coefficient[1]"},
-                               {4, "1e308", "ground.covariance[0][0]"},
-                               {20, "5e-324", "ground.scale[0]"},
-                               {24, "5e-324", "ground.noise"},
+  for (const Damage& damage : {Damage{0, "1e308", "processor.ground.coefficient[0]"},
+                               {1, "1e150", "processor.ground.coefficient[1]"},
+                               {4, "1e308", "processor.ground.covariance[0][0]"},
+                               {20, "5e-324", "processor.ground.scale[0]"},
+                               {24, "5e-324", "processor.ground.noise"},
                                {4, "nan", ""}}) {
     SCOPED_TRACE(std::string(damage.number) + " as " + damage.key);
     std::vector<std::string> damaged = good;
@@ -91,7 +91,7 @@ TEST_F(IgCostModel, withANumberThatNoneCanHaveIsNamedAndLearnedAnew) {
   }
 }
 
-TEST_F(IgCostModel, thatPredictsNothingRightIsLearnedAnewAndSaysSoOnce) {
+TEST_F(IgCostModel, thatPredictsNothingRightIsLearnedAnew) {
   fly();
   std::vector<std::string> stuck = lines();
   // An image would take ten seconds; and so little is uncertain that nothing could be learned.
@@ -102,9 +102,7 @@ TEST_F(IgCostModel, thatPredictsNothingRightIsLearnedAnewAndSaysSoOnce) {
     stuck[kFirst + 20 + i] = "1e-10";
   }
   write(stuck);
-  const Flown flown = fly();
-  EXPECT_THAT(flown.err, HasSubstr("warning: cost model: prediction: expected about "));
-  EXPECT_EQ(flown.err.find("learned anew"), flown.err.rfind("learned anew")) << flown.err;
+  EXPECT_GT(fly().unknown, 0U) << "it began from nothing";
   EXPECT_LT(std::stod(lines()[kFirst]), 1000);
 }
 

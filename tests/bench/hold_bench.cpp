@@ -8,6 +8,7 @@
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/passes/scale_up_pass.h"
 #include "row.h"
+#include "tests/core/hold/two_clock_flight.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/scene/load_index.h"
 #include "trimtab/session/session.h"
@@ -131,6 +132,28 @@ void look(Report& report, const std::shared_ptr<const terrain::Database>& terrai
   add("hold.ahead", "the nodes of coming images named", names);
 }
 
+/// Simulated flights: the same figures on every machine.
+void twoClocks(Report& report) {
+  test::TwoClockFlight flight;
+  for (const test::TwoClockCase& c : test::twoClockCases()) {
+    const test::TwoClockRun off = flight.fly(c, false), held = flight.fly(c, true);
+    const auto add = [&](double goal, const char* which, double ms, const char* peer, double peerMs) {
+      report.add(ratioAtMost(goal, {.id = "hold.two_clocks_" + c.id + which,
+                                    .what = "99th percentile of held images on a simulated machine " + c.name,
+                                    .value = ms,
+                                    .unit = "ms",
+                                    .peer = peer,
+                                    .peerValue = peerMs,
+                                    .peerFrom = "run"}));
+    };
+    if (!held.reachable.empty() && held.notTrusted == 0)
+      add(1.1, "_reached", test::p99Of(held.reachable), "the budget, which some setting fits", c.budgetMs);
+    if (!held.unreachable.empty())
+      add(1.05, "_unreached", test::p99Of(held.unreachable), "the same not held, where no setting fits",
+          test::p99Of(off.unreachable));
+  }
+}
+
 void scaleUp(Report& report) {
   scene::FrameBuffer image;
   image.resize(BenchScene::kWidth, BenchScene::kHeight);
@@ -165,6 +188,7 @@ int main(int argc, char** argv) {
   bench::BenchScene scene(terrain);
   if (report.wants("exchange") && scene.ready()) bench::exchange(report, terrain, scene);
   if (report.wants("look") && scene.ready()) bench::look(report, terrain, scene);
+  if (report.wants("two_clocks")) bench::twoClocks(report);
   if (report.wants("scale_up") && scene.ready() && scene.softwareRasteriser()) bench::scaleUp(report);
   return report.finish();
 }

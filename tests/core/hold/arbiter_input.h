@@ -25,15 +25,16 @@ inline HoldGiven given(double timeS = 0) {
   g.groundMpx = 0.5;
   for (std::size_t k = 0; k < kErrorSteps; ++k)
     g.triangles[k] = 1e5 * std::exp2(-static_cast<double>(k) / kPlacesPerOctave);
-  g.cost = {.fixed = 2,
-            .perTriangle = 1e-4,
-            .perGroundMpx = 40,
-            .perParticles = 3,
-            .perWeatherMpx = 1,
-            .perBlurMpx = 3,
-            .other = 1,
-            .bandMs = 2,
-            .known = true};
+  static_cast<ClockCoefficients&>(g.cost) = {.fixed = 2,
+                                             .perTriangle = 1e-4,
+                                             .perTriangleSide = 0,
+                                             .perGroundMpx = 40,
+                                             .perParticles = 3,
+                                             .perWeatherMpx = 1,
+                                             .perBlurMpx = 3,
+                                             .other = 1};
+  g.cost.bandMs = 2;
+  g.cost.known = true;
   return g;
 }
 

@@ -22,8 +22,7 @@ struct Twin {
 Twin leastLoss(const HoldGiven& g, const HoldParameters& p, double limitMs) {
   Twin best;
   std::vector<double> errors{g.asked.errorPx};
-  // While the eye moves every half octave, else every sixteenth.
-  for (int i = 0; i <= 9 * 16; i += g.moves ? 8 : 1)
+  for (int i = 0; i <= 9 * 16; ++i)
     if (const double e = std::pow(2, i / 16.0 - 3);
         e > g.asked.errorPx && e <= p.errorMaximum.value() * 1.000001)
       errors.push_back(e);
@@ -77,7 +76,6 @@ TEST(Arbiter, losesAsLittleAsAnySettingThatFits) {
     HoldGiven g = given();
     g.asked = {between(0.3, 8), between(0.5, 1), between(0.25, 1), 1};
     g.unseenPx = between(0, 10);
-    g.moves = i % 2 == 0;
     g.cost.perGroundMpx = between(0, 60);
     g.cost.perParticles = between(0, 60);
     g.cost.perTriangle = between(0, 5e-4);
@@ -111,13 +109,13 @@ TEST(Arbiter, saysWhatEachLeverTakesOffAndTheyAddUp) {
   EXPECT_DOUBLE_EQ(gains.particles.ms, 1.5);
   EXPECT_DOUBLE_EQ(gains.particles.loss, p.lossParticles.value() / 2);
   EXPECT_EQ(gains.error, LeverGain{});
-  // Render scale 0.5 draws a quarter of the pixels: 15 of 20 ms of the ground, and of blur and weather the
-  // mean of what they take in each order.
+  // Alone, the levers take off 5, 18, 1.5 and 3 ms. A smaller scene has less blur to draw, so together they
+  // take off 2.25 ms less, which all share.
   d.held = {2, 0.5, 0.5, 0};
   gains = gainsOf(g, d, p);
-  EXPECT_DOUBLE_EQ(gains.error.ms, 5) << "its triangles have no other lever";
-  EXPECT_NEAR(gains.renderScale.ms, 0.75 * (18 + 2 + 1) + 0.5 * 0.75 * 3, 1e-9);
-  EXPECT_NEAR(gains.blur.ms, 0.5 * (3 + 0.75), 1e-9);
+  EXPECT_NEAR(gains.error.ms, 5 * 25.25 / 27.5, 1e-9);
+  EXPECT_NEAR(gains.renderScale.ms, 0.75 * (20 + 1 + 3) * 25.25 / 27.5, 1e-9);
+  EXPECT_NEAR(gains.blur.ms, 3 * 25.25 / 27.5, 1e-9);
   const double all = gains.error.ms + gains.renderScale.ms + gains.particles.ms + gains.blur.ms;
   const double held =
       predict(g.cost, loadOf(g, d.held, trianglesAt(g.triangles, d.asked.errorPx, d.held.errorPx))).total();
@@ -188,7 +186,7 @@ TEST(Arbiter, goesBackAndForthBetweenNoSettingsThatTakeTheSameTime) {
   EXPECT_EQ(changes, 0);
 }
 
-TEST(Arbiter, givesUpHardlyMoreThanTheBudgetAsksAtRestAndHalfAnOctaveInMotion) {
+TEST(Arbiter, givesUpHardlyMoreThanTheBudgetAsks) {
   std::mt19937 random(13);
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -196,7 +194,6 @@ TEST(Arbiter, givesUpHardlyMoreThanTheBudgetAsksAtRestAndHalfAnOctaveInMotion) {
   for (int view = 0; view < 100; ++view) {
     HoldMemory memory;
     HoldGiven g = given();
-    g.moves = view % 2 == 0;
     g.cost.perTriangle = between(1e-4, 4e-4);
     const double asked = predict(g.cost, loadOf(g, g.asked, g.triangles[0])).total();
     const double trianglesMs = g.cost.perTriangle * g.triangles[0];
@@ -209,8 +206,8 @@ TEST(Arbiter, givesUpHardlyMoreThanTheBudgetAsksAtRestAndHalfAnOctaveInMotion) {
       d = arbitrate(g, p, memory);
     }
     EXPECT_LE(d.heldMs.total(), d.limitMs) << view;
-    // What lowering leaves free, and half an octave of the triangles, or a sixteenth.
-    EXPECT_GE(d.heldMs.total(), d.limitMs * 0.97 - (g.moves ? 0.3 : 0.05) * trianglesMs) << view;
+    // What lowering leaves free, and a sixteenth of an octave of the triangles.
+    EXPECT_GE(d.heldMs.total(), d.limitMs * 0.92 - 0.05 * trianglesMs) << view;
   }
 }
 
@@ -223,7 +220,6 @@ TEST(Arbiter, changesLevelsTwiceAtMostInAGlance) {
     g.budgetMs = 44;
     // The load rises and falls over a second while the line of sight sweeps through 180 degrees.
     const bool sweeps = i >= 50 && i < 150;
-    g.moves = sweeps;
     const double part = sweeps ? std::sin((i - 50) / 100.0 * 3.14159) : 0;
     for (double& triangles : g.triangles) triangles *= 1 + 2 * part;
     g.unseenPx = errorInMotion(1, sweeps ? 180 : 0, 16, 1100);
@@ -248,7 +244,6 @@ TEST(Arbiter, leavesLevelsAloneWhereOtherLeversServeNearlyAsWell) {
       HoldGiven g = given(i / 60.0);
       g.budgetMs = budgetMs;
       const double load = 1 + 0.33 * std::sin(i / 60.0);
-      g.moves = true;
       for (double& triangles : g.triangles) triangles *= load;
       g.cost.perTriangle *= 4;
       g.cost.perGroundMpx *= 0.5 * load;
@@ -284,16 +279,53 @@ TEST(Arbiter, anUnknownBudgetOrCostChangesNothing) {
   }
 }
 
-TEST(Arbiter, aBudgetBelowAnEmptySkyTakesTheQuickestSettingAndSaysSo) {
+TEST(Arbiter, aBudgetBelowAnEmptySkyTakesNextToTheQuickestSettingAndSaysSo) {
   HoldMemory memory;
   HoldGiven g = given();
   g.budgetMs = 0.5;
   const HoldDecision d = arbitrate(g, enabled(), memory);
   EXPECT_EQ(d.reason, HoldReason::out_of_reach);
-  EXPECT_DOUBLE_EQ(d.held.errorPx, 16);
   EXPECT_DOUBLE_EQ(d.held.renderScale, 0.5);
   EXPECT_DOUBLE_EQ(d.held.particleShare, 0.25);
   EXPECT_DOUBLE_EQ(d.held.blurShare, 0);
+  const HeldLevers least{16, 0.5, 0.25, 0};
+  const double quickestMs = predict(g.cost, loadOf(g, least, trianglesAt(g.triangles, 1, 16))).total();
+  EXPECT_LE(d.heldMs.total(), 1.02 * quickestMs);
+  EXPECT_LT(d.held.errorPx, 16) << "the last pixels of error win next to nothing";
+}
+
+/// A processor that does the same whatever is drawn.
+TEST(Arbiter, leavesTheLeversAloneWhereLoweringThemWinsNothing) {
+  HoldMemory memory;
+  for (int i = 0; i < 100; ++i) {
+    HoldGiven g = given(i / 60.0);
+    static_cast<ClockCoefficients&>(g.cost) = {};
+    g.cost.fixed = 30 + i % 3;
+    g.cost.perGroundMpx = 0.5;
+    g.budgetMs = 10;
+    const HoldDecision d = arbitrate(g, enabled(), memory);
+    EXPECT_EQ(d.reason, HoldReason::out_of_reach);
+    EXPECT_EQ(d.held, d.asked) << i;
+  }
+}
+
+TEST(Arbiter, leavesTheLeversAloneWhilePredictionsAreOffAndComesBack) {
+  HoldMemory memory;
+  HoldGiven g = given();
+  g.budgetMs = 20;
+  const auto reasonAt = [&](double offMs) {
+    g.cost.offMs = offMs;
+    g.timeS += 1 / 60.0;
+    const HoldDecision d = arbitrate(g, enabled(), memory);
+    EXPECT_EQ(d.held == d.asked, d.reason == HoldReason::not_trusted) << offMs;
+    EXPECT_FALSE(explain(d).empty());
+    return d.reason;
+  };
+  EXPECT_EQ(reasonAt(5.9), HoldReason::lowered);
+  EXPECT_EQ(reasonAt(6.1), HoldReason::not_trusted);
+  EXPECT_EQ(reasonAt(3.1), HoldReason::not_trusted) << "it does not come and go";
+  EXPECT_EQ(reasonAt(2.9), HoldReason::lowered);
+  EXPECT_EQ(reasonAt(5.9), HoldReason::held);
 }
 
 TEST(Arbiter, aClockThatStandsOrGoesBackNeverRestores) {

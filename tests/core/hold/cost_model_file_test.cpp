@@ -43,10 +43,10 @@ TEST_F(CostModelFile, readsBackToTheBit) {
   ASSERT_TRUE(writeCostModel(file, "llvmpipe", model).ok());
   const auto state = readCostModel(file, "llvmpipe");
   ASSERT_TRUE(state.ok()) << toString(state.findings());
-  EXPECT_EQ(state->ground.coefficient, model.state().ground.coefficient);
-  EXPECT_EQ(state->ground.covariance, model.state().ground.covariance);
-  EXPECT_EQ(state->weather.coefficient, model.state().weather.coefficient);
-  EXPECT_EQ(state->other, model.state().other);
+  EXPECT_EQ(state->processor.ground.coefficient, model.state().processor.ground.coefficient);
+  EXPECT_EQ(state->processor.ground.covariance, model.state().processor.ground.covariance);
+  EXPECT_EQ(state->processor.weather.coefficient, model.state().processor.weather.coefficient);
+  EXPECT_EQ(state->processor.other, model.state().processor.other);
 }
 
 TEST_F(CostModelFile, ofAnotherMachineIsDistrusted) {
@@ -104,13 +104,15 @@ TEST_F(CostModelFile, uncertaintiesOfNothingAreRefused) {
     number = before;
     return out;
   };
-  EXPECT_FALSE(refused(state.other, state.other));
-  EXPECT_TRUE(refused(state.ground.covariance[0][0], 5e-324)) << "it would learn nothing any more";
-  EXPECT_TRUE(refused(state.ground.covariance[0][1], state.ground.covariance[0][1] * 1.5));
-  EXPECT_TRUE(refused(state.ground.covariance[2][2], state.ground.scale[2] * state.ground.scale[2] * 1.1));
-  EXPECT_TRUE(refused(state.ground.scale[1], 5e-324));
-  EXPECT_TRUE(refused(state.weather.noise, 0));
-  EXPECT_TRUE(refused(state.blur.images, 0)) << "what has seen no image knows nothing";
+  EXPECT_FALSE(refused(state.processor.other, state.processor.other));
+  EXPECT_TRUE(refused(state.processor.ground.covariance[0][0], 5e-324)) << "it would learn nothing any more";
+  EXPECT_TRUE(
+      refused(state.processor.ground.covariance[0][1], state.processor.ground.covariance[0][1] * 1.5));
+  EXPECT_TRUE(refused(state.processor.ground.covariance[2][2],
+                      state.processor.ground.scale[2] * state.processor.ground.scale[2] * 1.1));
+  EXPECT_TRUE(refused(state.processor.ground.scale[1], 5e-324));
+  EXPECT_TRUE(refused(state.processor.weather.noise, 0));
+  EXPECT_TRUE(refused(state.processor.blur.images, 0)) << "what has seen no image knows nothing";
 }
 
 TEST_F(CostModelFile, whatCouldNotBeReadAgainIsNotWritten) {
@@ -118,12 +120,13 @@ TEST_F(CostModelFile, whatCouldNotBeReadAgainIsNotWritten) {
   ASSERT_TRUE(writeCostModel(file, "llvmpipe", good).ok());
   const std::string before = text();
   CostModel::State state = good.state();
-  state.ground.coefficient[0] = kNan;
+  state.processor.ground.coefficient[0] = kNan;
   CostModel bad;
   bad.restore(state);
   const auto written = writeCostModel(file, "llvmpipe", bad);
   ASSERT_FALSE(written.ok());
-  EXPECT_NE(toString(written.findings()).find("ground.coefficient[0]: expected 0..60000000000, found nan"),
+  EXPECT_NE(toString(written.findings())
+                .find("processor.ground.coefficient[0]: expected 0..60000000000, found nan"),
             std::string::npos)
       << toString(written.findings());
   EXPECT_EQ(text(), before);
@@ -157,7 +160,7 @@ TEST_F(CostModelFile, everyMachineKeepsItsOwn) {
   EXPECT_NE(costModelFile("GPU/one (rev 2)"), costModelFile("llvmpipe"));
   EXPECT_EQ(costModelFile("GPU/one (rev 2)").parent_path(), costModelFile("llvmpipe").parent_path());
   EXPECT_TRUE(recallCostModel(other, "GPU/one (rev 2)").empty());
-  EXPECT_EQ(other.state().ground.coefficient, model.state().ground.coefficient);
+  EXPECT_EQ(other.state().processor.ground.coefficient, model.state().processor.ground.coefficient);
   EXPECT_TRUE(rememberCostModel(learned(), "new").empty());
   EXPECT_FALSE(std::filesystem::exists(costModelFile("new"))) << "50 images are not worth it";
   set ? ::setenv("XDG_CACHE_HOME", before.c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");

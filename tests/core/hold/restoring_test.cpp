@@ -26,8 +26,7 @@ TEST(Arbiter, lowersAtOnceAndRestoresAfterCalm) {
     d = arbitrate(given(time += 0.016), p, memory);
     ++images;
   } while (d.held != d.asked && images < 100);
-  EXPECT_GE(images * 16, 150);
-  EXPECT_LE(images * 16, 250 + 16 * 11);  // render scale comes back a step an image
+  EXPECT_NEAR(images * 16, p.calm.value(), 16);
 }
 
 TEST(Arbiter, theErrorReturnsOnceItsMeshesAreThereOrAfterTwoSeconds) {
@@ -101,11 +100,11 @@ TEST(Arbiter, restoresWithoutAnyImageOverTheLimit) {
   }
 }
 
-/// A machine that is now quicker and now slower, by more than the arbiter's reserve: without patience the
-/// levers would go back and forth for as long as the view rests.
-TEST(Arbiter, restoresLessOftenWhereRestoringHadToBeTakenBack) {
+/// A machine that is now quicker and now slower by nearly twice the reserve: without it the levers would go
+/// back and forth for as long as the view rests.
+TEST(Arbiter, restsWhereTheMachineVaries) {
   HoldMemory memory;
-  int changes = 0, early = 0;
+  int changes = 0;
   HeldLevers last;
   for (int i = 0; i < 60 * 60; ++i) {
     HoldGiven g = given(i / 60.0);
@@ -114,13 +113,10 @@ TEST(Arbiter, restoresLessOftenWhereRestoringHadToBeTakenBack) {
     g.cost.perGroundMpx *= i % 40 < 20 ? 1.15 : 1;
     const HoldDecision d = arbitrate(g, enabled(), memory);
     changes += i > 0 && d.held != last;
-    if (i == 60 * 10) early = changes;
     last = d.held;
   }
-  EXPECT_GT(changes, 2) << "at first it tries";
-  EXPECT_LE(changes, 16);
-  EXPECT_EQ(changes - early, 0) << "head-room that never lasts is left alone";
-  // Once there is ample room, restoring waits no longer than at first.
+  EXPECT_LE(changes, 2) << "90 a minute each way without a reserve";
+  // Ample room restores as soon as ever.
   double returnedMs = 0;
   for (int i = 0; i < 120 && returnedMs == 0; ++i) {
     HoldGiven g = given(60 + i / 60.0);
@@ -131,73 +127,6 @@ TEST(Arbiter, restoresLessOftenWhereRestoringHadToBeTakenBack) {
   EXPECT_LE(returnedMs, 2 * enabled().calm.value());
 }
 
-/// The pixels' cost was not seen for long, so a larger image may take much longer than it is predicted to.
-TEST(Arbiter, restoresOnlyWhereTheModelIsSure) {
-  struct Case {
-    double deviation;  ///< of perGroundMpx, ms a million pixels
-    double caution;
-    bool restores;
-  };
-  for (const Case& c :
-       {Case{0, 1.41, true}, Case{30, 1.41, false}, Case{30, 0, true}, Case{0.5, 1.41, true}}) {
-    HoldMemory memory;
-    HoldParameters p = enabled();
-    p.caution = Ratio{c.caution};
-    p.lossError = p.lossParticles = p.lossBlur = Ratio{1};
-    HoldDecision d;
-    for (int i = 0; i < 120; ++i) {
-      HoldGiven g = given(i / 60.0);
-      g.budgetMs = i < 30 ? 30 : 46;
-      g.cost.bandMs = 0.1;
-      g.cost.variance.ground[9] = c.deviation * c.deviation;
-      d = arbitrate(g, p, memory);
-      if (i == 29) {
-        EXPECT_LT(d.held.renderScale, 0.8);
-      }
-    }
-    EXPECT_EQ(d.held.renderScale == 1, c.restores) << c.deviation << ' ' << c.caution << ' ' << explain(d);
-  }
-}
-
-/// Returns how often a minute's images exchange levels while the eye moves and the allowed error is the only
-/// lever; `change` makes the load or the machine of image i.
-int exchangesInAMinute(const std::function<void(HoldGiven&, int i)>& change) {
-  HoldMemory memory;
-  HoldParameters p = enabled();
-  p.renderScaleMinimum = p.particlesMinimum = Ratio{1};
-  int exchanges = 0;
-  double last = 0;
-  for (int i = 0; i < 60 * 60; ++i) {
-    HoldGiven g = given(i / 60.0);
-    g.budgetMs = 36;
-    g.moves = true;
-    g.blurs = false;
-    change(g, i);
-    const HoldDecision d = arbitrate(g, p, memory);
-    exchanges += i > 0 && d.held.errorPx != last;
-    last = d.held.errorPx;
-  }
-  return exchanges;
-}
-
-/// A machine that takes 1.8 times as long for triangles during a quarter of the time.
-TEST(Arbiter, patienceOutlastsAMovingEye) {
-  const int exchanges =
-      exchangesInAMinute([](HoldGiven& g, int i) { g.cost.perTriangle *= i % 80 < 20 ? 1.8 : 1; });
-  EXPECT_GT(exchanges, 2) << "it tries";
-  EXPECT_LE(exchanges, 25) << "65 where patience ends within hold.calm_ms";
-}
-
-/// A load that leaves ample room in every other second: an eye that flies over hills, or a head that looks
-/// around.
-TEST(Arbiter, levelsReturnMoreSeldomWhereTheLoadComesBack) {
-  const int exchanges = exchangesInAMinute([](HoldGiven& g, int i) {
-    for (double& triangles : g.triangles) triangles *= i % 120 < 60 ? 4 : 1;
-  });
-  EXPECT_GT(exchanges, 2) << "it tries";
-  EXPECT_LE(exchanges, 20) << "34 where ample room returns them after 0.4 s each time";
-}
-
 /// A calm of nothing, or of less than an image, must not keep the error from returning while the eye moves.
 TEST(Arbiter, theErrorReturnsWithAnyCalm) {
   for (const double calmMs : {0.0, 10.0, 120.0, 300.0}) {
@@ -206,42 +135,13 @@ TEST(Arbiter, theErrorReturnsWithAnyCalm) {
     for (int i = 0; i < 400 && returnedMs == 0; ++i) {
       HoldGiven g = given(i / 60.0);
       g.budgetMs = 44;
-      g.moves = true;
       for (double& triangles : g.triangles) triangles *= i < 50 ? 8 : 1;
       HoldParameters p = enabled();
       p.renderScaleMinimum = Ratio{1};
       p.calm = Milliseconds{calmMs};
       if (arbitrate(g, p, memory).held.errorPx == 1 && i > 50) returnedMs = (i - 50) * 1000 / 60.0;
     }
-    EXPECT_NEAR(returnedMs, 400, 40) << calmMs;
-  }
-}
-
-TEST(Arbiter, whileTheEyeMovesTheErrorReturnsAfterASecondOrSoonerWithAmpleRoom) {
-  struct Case {
-    bool moves;
-    double load;  ///< before, over that afterwards
-    double afterMs;
-  };
-  for (const Case& c :
-       {Case{true, 1.7, 1000}, Case{true, 8, 400}, Case{false, 1.7, enabled().calm.value()}}) {
-    HoldMemory memory;
-    double returnedMs = 0;
-    for (int i = 0; i < 300 && returnedMs == 0; ++i) {
-      HoldGiven g = given(i / 100.0);
-      g.budgetMs = 44;
-      g.moves = c.moves;
-      for (double& triangles : g.triangles) triangles *= i < 50 ? c.load : 1;
-      HoldParameters p = enabled();
-      p.renderScaleMinimum = Ratio{1};
-      const HoldDecision d = arbitrate(g, p, memory);
-      if (i < 50) {
-        EXPECT_GT(d.held.errorPx, 1) << c.load;
-      } else if (d.held.errorPx == 1) {
-        returnedMs = (i - 50) * 10;
-      }
-    }
-    EXPECT_NEAR(returnedMs, c.afterMs, 25) << c.moves << ' ' << c.load;
+    EXPECT_NEAR(returnedMs, calmMs, 40);
   }
 }
 

@@ -39,11 +39,12 @@ enum class HoldReason : std::uint8_t {
   lowered,       ///< lowered in this image, because the prediction did not fit
   held,          ///< lower than asked for, as in the image before
   restored,      ///< raised in this image, because head-room has lasted
-  out_of_reach   ///< as low as the limits allow, and the prediction still does not fit
+  out_of_reach,  ///< as low as is of use within the limits, and the prediction still does not fit
+  not_trusted    ///< as asked for, because the last predictions were too far off
 };
 
 /// How many there are.
-inline constexpr std::size_t kHoldReasons = static_cast<std::size_t>(HoldReason::out_of_reach) + 1;
+inline constexpr std::size_t kHoldReasons = static_cast<std::size_t>(HoldReason::not_trusted) + 1;
 
 struct HoldDecision {
   HoldReason reason = HoldReason::off;
@@ -58,8 +59,9 @@ struct HoldDecision {
 /// Returns the name that traces, the command line and the workbench show, and an empty one for a value
 /// outside the enumeration.
 constexpr std::string_view toText(HoldReason reason) {
-  constexpr std::array<std::string_view, kHoldReasons> kNames{
-      "off", "no_budget", "cost_unknown", "fits", "lowered", "held", "restored", "out_of_reach"};
+  constexpr std::array<std::string_view, kHoldReasons> kNames{"off",      "no_budget",    "cost_unknown",
+                                                              "fits",     "lowered",      "held",
+                                                              "restored", "out_of_reach", "not_trusted"};
   const auto at = static_cast<std::size_t>(reason);
   return at < kNames.size() ? kNames[at] : std::string_view{};
 }

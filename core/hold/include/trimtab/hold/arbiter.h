@@ -10,28 +10,18 @@
 
 /// Keeps the predicted time of each image within the budget.
 ///
-/// Each image, the arbiter looks at every setting of the levers that it may move, some thousand in motion and
-/// several thousand at rest, and takes the one that loses least among those that fit. A setting with another
-/// allowed error than the image before counts as losing a quarter more, because it exchanges levels of
-/// detail. Prediction comes first and measurement only corrects the model, so there is nothing to oscillate:
-/// Funkhouser and Sequin, "Adaptive Display Algorithm for Interactive Frame Rates During Visualization of
-/// Complex Virtual Environments", SIGGRAPH 1993. Their benefit of an object is here the loss of the image, in
-/// the mean FLIP that leverage measures.
+/// **Lower at once**, to the setting of the levers that loses least among those that fit. **Restore only**
+/// after a finer setting has been predicted to fit, with a reserve, for hold.calm_ms without interruption,
+/// and its meshes are built (Renderer::buildAhead), for which the allowed error waits at most two seconds.
+/// Lowering leaves the same reserve, so there is nothing to go back and forth between. A setting with another
+/// allowed error exchanges levels of detail, so it counts as losing more.
 ///
-/// Lowering acts at once. Restoring waits until head-room has lasted hold.calm_ms, and then moves render
-/// scale and particles one step an image, so that no image becomes long by it; the allowed error returns
-/// in one step, because each step of it exchanges levels. While the eye moves it returns only after a second,
-/// or after 0.4 s if the image takes less than three quarters of the limit, so that a glance does not
-/// exchange them twice. It also waits until the meshes that it needs are built (Renderer::buildAhead), for at
-/// most two seconds. A restoration that is taken back within four seconds makes the next one wait twice as
-/// long, up to 32 times, until one has lasted for as long; while the eye moves that halves every four
-/// seconds. Where there is ample room, patience delays the allowed error of a moving eye and nothing else.
+/// First, do no harm: while predictions are far off, and where lowering would win next to nothing, the levers
+/// stay as they are asked for.
 ///
-/// While the eye moves, the allowed error moves by half octaves, so that a glance changes levels once or
-/// twice; the other levers take what that gives up too much. At rest it moves by sixteenths. Restoring must
-/// win more than a tenth of the loss, and more than a fifth if it exchanges levels. It goes only
-/// where the model is sure that it fits: a setting unlike those that were drawn lately counts as longer by
-/// hold.caution of the bands that this adds (coefficientBandMs).
+/// Prediction comes first and measurement only corrects the model: Funkhouser and Sequin, "Adaptive Display
+/// Algorithm for Interactive Frame Rates During Visualization of Complex Virtual Environments", SIGGRAPH
+/// 1993. Their benefit of an object is here the loss of the image, in the mean FLIP that leverage measures.
 namespace trimtab {
 
 /// Everything that an image's arbitration depends on beside its memory, as plain numbers.
@@ -42,14 +32,11 @@ struct HoldGiven {
   double unseenPx = 0;         ///< errorInMotion() of the error that is asked for: up to it nothing is lost
   double particles = 0;        ///< amount of what falls (fallsNow) times asked.particleShare
   bool blurs = false;          ///< head motion asks for blur
-  bool moves = false;          ///< the eyes of the coming images are elsewhere, or turned
   double imageMpx = 0;         ///< millions of pixels of the image
   double groundMpx = 0;        ///< of those, millions below the horizon; the most of the views counted
   TriangleLadder triangles{};  ///< by allowed error; the most of the views counted
   double meshesLeft = 0;       ///< named by FrameHold::nodesAhead, that there was no time to build
   CostCoefficients cost;
-
-  friend bool operator==(const HoldGiven&, const HoldGiven&) = default;
 };
 
 /// Where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale
@@ -65,13 +52,10 @@ struct HoldMemory {
   HoldSteps steps;
   double timeS = 0;   ///< of the last image
   double calmMs = 0;  ///< how long there has been head-room
-  double bandMs = 0;  ///< the model's uncertainty, averaged over some 50 images
   bool begun = false;
-  double restoredMs = kInfinity;  ///< how long ago a lever was restored; infinite once it was lowered again
-  double patience = 1;            ///< restoring waits for so many times hold.calm_ms
-  std::uint8_t wantedError = 0;   ///< the place of the allowed error that there is head-room for
-  double waitedMs = 0;            ///< how long that has waited for its meshes
-  friend bool operator==(const HoldMemory&, const HoldMemory&) = default;
+  bool distrusts = false;        ///< predictions have been too far off
+  std::uint8_t wantedError = 0;  ///< the place of the allowed error that there is head-room for
+  double waitedMs = 0;           ///< how long that has waited for its meshes
 };
 
 /// Decides the levers of one image. It is pure but for `memory`, and allocates nothing. If the budget or the
@@ -79,9 +63,8 @@ struct HoldMemory {
 /// counts as no time.
 HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& parameters, HoldMemory& memory);
 
-/// Returns how long an image may have an effect on later decisions, milliseconds: a restoration that it
-/// begins, and the time within which that may be taken back. Patience may delay one for longer.
-double rememberedMs();
+/// Returns how long an image may have an effect on later decisions, milliseconds.
+double rememberedMs(const HoldParameters& parameters);
 
 /// Returns the allowed error at a place of HoldSteps::error, pixels.
 double errorAtPlace(std::uint8_t place, double askedPx);
@@ -119,9 +102,8 @@ struct HoldGains {
 };
 
 /// Returns what each lever of a decision gives; all 0 while none is lowered. The times of all levers add up
-/// to askedMs - heldMs. Levers share some of it, since a smaller image also has less weather to draw:
-/// each gets the mean of what it takes off in every order in which the levers could have been lowered
-/// (Shapley, "A Value for n-Person Games", 1953). `given` and `parameters` are those of the decision.
+/// to askedMs - heldMs: each has a part of that by what it takes off alone. `given` and `parameters` are
+/// those of the decision.
 HoldGains gainsOf(const HoldGiven& given, const HoldDecision& decision, const HoldParameters& parameters);
 
 /// Returns the decision in words and numbers, on one line.

@@ -26,42 +26,28 @@ struct FrameLoad {
 /// Standard deviations in the 90 % band of a normal distribution.
 inline constexpr double kNormalBand = 1.645;
 
-/// How uncertain the coefficients of a model are, in squares of their units. A covariance matrix is kept row
-/// by row, each from its diagonal on.
-struct CostVariance {
-  std::array<double, 10> ground{};  ///< of fixed, perTriangle, perTriangleSide and perGroundMpx
-  std::array<double, 3> weather{};  ///< of perParticles and perWeatherMpx
-  double blur = 0;                  ///< of perBlurMpx
-
-  friend bool operator==(const CostVariance&, const CostVariance&) = default;
-};
-
-/// The model as plain numbers, milliseconds a unit of its quantity. A prediction needs nothing else.
+/// What the work of one clock costs, milliseconds a unit of its quantity.
 ///
 /// A triangle costs perTriangle at any render scale. A software rasteriser also pays for the length of its
 /// edges in pixels: perTriangleSide times the side of the scene, which is the root of its millions of pixels.
-struct CostCoefficients {
+struct ClockCoefficients {
   double fixed = 0, perTriangle = 0, perTriangleSide = 0, perGroundMpx = 0;
   double perParticles = 0, perWeatherMpx = 0;
   double perBlurMpx = 0;
   double other = 0;
-  double bandMs = 0;   ///< the 90 % band of the image that is about to be drawn, to either side
-  bool known = false;  ///< enough images were measured to predict one
-  CostVariance variance{};
-
-  friend bool operator==(const CostCoefficients&, const CostCoefficients&) = default;
 };
 
-/// Returns the time of an image, by stage.
+/// The model as plain numbers; a prediction needs nothing else. The coefficients themselves are those of the
+/// clock that takes longer for the load that they were asked for: processor or GPU.
+struct CostCoefficients : ClockCoefficients {
+  std::optional<ClockCoefficients> second;  ///< the other clock, if there are two
+  double bandMs = 0;   ///< the 90 % band of the image that is about to be drawn, to either side
+  double offMs = 0;    ///< the median by which the last predictions were off, to either side
+  bool known = false;  ///< enough images were measured to predict one
+};
+
+/// Returns the time of an image, by stage: that of the clock which takes longer for this load.
 StageTimes predict(const CostCoefficients& cost, const FrameLoad& load);
-
-/// Returns the part of an image's 90 % band that comes from uncertain coefficients, milliseconds. It is small
-/// for loads like those that were drawn lately, and grows with what they never told apart.
-double coefficientBandMs(const CostCoefficients& cost, const FrameLoad& load);
-
-/// Returns how many times as long an image may take at most under another load, whatever the coefficients
-/// are: none is negative, so it is the greatest ratio of a quantity; infinite if there was none of it before.
-double mostTimesAsLong(const FrameLoad& before, const FrameLoad& after);
 
 /// Returns what a frame's work took: all of the processor's time, or the GPU's if that is longer.
 double workMs(const FrameCost& cost);
@@ -70,18 +56,29 @@ double workMs(const FrameCost& cost);
 /// measured apart count as ground.
 StageTimes stagesOf(const FrameCost& cost);
 
-/// Learns the coefficients of a machine from finished images.
-class CostModel {
+/// The work of one image on one clock, milliseconds.
+struct ClockTimes {
+  double work = 0;   ///< all of it
+  double other = 0;  ///< of that, what belongs to no load
+  double weather = 0, blur = 0;
+  bool apart = true;  ///< weather was measured apart, if the image had any
+};
+
+/// Learns the coefficients of one clock from finished images.
+class ClockModel {
  public:
-  /// Learns from an image. What it ran and nobody measured (FrameCost::kNotMeasured) teaches nothing. Times
-  /// outside cost_bounds are ignored. A model that can predict nothing, because a number of it is not finite
-  /// or because a hundred predictions in a row were more than twice too long or too short, begins anew.
-  void observe(const FrameLoad& load, const FrameCost& cost);
-  /// Returns the coefficients, with the band for an image of this load.
-  CostCoefficients coefficients(const FrameLoad& load) const;
-  /// Returns how many images it has learned from.
+  /// Learns from an image. What it ran and should have been measured apart, but was not, teaches nothing.
+  /// Times outside cost_bounds are ignored. A model of which a number is not finite begins anew.
+  void observe(const FrameLoad& load, const ClockTimes& times);
+  ClockCoefficients coefficients() const;
+  /// Returns the half width of the 90 % band for an image of this load, milliseconds.
+  double bandMs(const FrameLoad& load) const;
+  /// Returns the median by which the last predictions were off, milliseconds.
+  double offMs() const;
+  /// Below so many images a prediction would be little more than the first image's time.
+  static constexpr double kFewestImages = 8;
+  bool known() const { return ground_.state().images >= kFewestImages; }
   std::size_t images() const { return images_; }
-  /// Returns why it began anew for the first time; unset as long as it did not.
   const std::optional<Finding>& whyAnew() const { return whyAnew_; }
 
   struct State {
@@ -89,22 +86,21 @@ class CostModel {
     LinearCost<2>::State weather;
     LinearCost<1>::State blur;
     double other = 0;
-    double band = 0;  ///< standard deviations in the 90 % band
+    double band = kNormalBand;  ///< standard deviations in the 90 % band
 
     /// Calls `visit(key, number, low, high)` for each number, in the order of the file. Units are
     /// milliseconds a unit of a quantity, triangles in ten thousands.
     template <class Self, class Visit>
-    static void forEachNumber(Self& self, const Visit& visit) {
-      const auto under = [&visit](const char* name) {
-        return [&visit, name](const std::string& key, auto& number, double low, double high) {
-          visit(name + ('.' + key), number, low, high);
-        };
+    static void forEachNumber(Self& self, const std::string& prefix, const Visit& visit) {
+      const auto under = [&](const char* name) {
+        return [&visit, path = prefix + name + '.'](const std::string& key, auto& number, double low,
+                                                    double high) { visit(path + key, number, low, high); };
       };
       LinearCost<4>::State::forEachNumber(self.ground, under("ground"));
       LinearCost<2>::State::forEachNumber(self.weather, under("weather"));
       LinearCost<1>::State::forEachNumber(self.blur, under("blur"));
-      visit("other", self.other, 0.0, cost_bounds::kLongestMs);
-      visit("band", self.band, kLeastBand, kMostBand);
+      visit(prefix + "other", self.other, 0.0, cost_bounds::kLongestMs);
+      visit(prefix + "band", self.band, kLeastBand, kMostBand);
     }
   };
   static constexpr double kLeastBand = 0.3, kMostBand = 10;
@@ -113,20 +109,54 @@ class CostModel {
   void restore(const State& state);
 
  private:
-  void noteOther(double ms);
-  void noteFarOff(double predictedMs, double ms);
-  void beginAnew(Finding why);
-
   LinearCost<4> ground_;
   LinearCost<2> weather_;
   LinearCost<1> blur_;
-  static constexpr std::size_t kOthers = 9;
-
   double other_ = 0, band_ = kNormalBand;
-  std::deque<double> others_;  ///< the last kOthers times of what `other_` is the median of
+  std::deque<double> others_;  ///< the last times of what `other_` is the median of
+  std::deque<double> off_;     ///< by how much the last predictions were off, milliseconds
   std::size_t images_ = 0;
-  int farOff_ = 0;  ///< predictions in a row
   std::optional<Finding> whyAnew_;
+};
+
+/// Learns what images cost on this machine, the processor's time and the GPU's apart: an image takes as long
+/// as the longer of both. A software rasteriser has no time of a GPU, and so a single clock.
+///
+/// The time of the GPU arrives with a later image, usually the next one (GpuTimer reads a ring of four). So
+/// it is learned for the load of the image before, and only where the levers have rested since the oldest
+/// image that it can belong to.
+class CostModel {
+ public:
+  /// Learns from an image.
+  void observe(const FrameLoad& load, const FrameCost& cost);
+  /// Tells that a lever moved in the last image, of which nothing is learned: it also made levels, or resized
+  /// its target.
+  void leversMoved() { loads_.clear(); }
+  /// Returns the coefficients, with the band for an image of this load.
+  CostCoefficients coefficients(const FrameLoad& load) const;
+  /// Returns how many images it has learned from.
+  std::size_t images() const { return processor_.images(); }
+  /// Returns why a clock began anew for the first time; unset as long as none did.
+  const std::optional<Finding>& whyAnew() const {
+    return processor_.whyAnew() ? processor_.whyAnew() : gpu_.whyAnew();
+  }
+
+  struct State {
+    ClockModel::State processor, gpu;
+
+    /// See ClockModel::State.
+    template <class Self, class Visit>
+    static void forEachNumber(Self& self, const Visit& visit) {
+      ClockModel::State::forEachNumber(self.processor, "processor.", visit);
+      ClockModel::State::forEachNumber(self.gpu, "gpu.", visit);
+    }
+  };
+  State state() const { return {processor_.state(), gpu_.state()}; }
+  void restore(const State& state) { processor_.restore(state.processor), gpu_.restore(state.gpu); }
+
+ private:
+  ClockModel processor_, gpu_;
+  std::deque<FrameLoad> loads_;  ///< of the last images, since a lever moved
 };
 
 }  // namespace trimtab

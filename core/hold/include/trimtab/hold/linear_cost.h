@@ -27,7 +27,7 @@ inline constexpr double kMostImages = 1e12;
 /// A single image cannot move it far: an error counts as at most two standard deviations, because late images
 /// are later than early ones are early, and what most images take is to be predicted. Five errors in a row of
 /// more than three, all too long or all too short, are a change of the machine instead, as when another
-/// program takes a core; the coefficients then become uncertain and follow within some images.
+/// program takes a core or a clock steps; the coefficients then follow at once.
 template <std::size_t N>
 class LinearCost {
  public:
@@ -53,10 +53,9 @@ class LinearCost {
       if (!(std::abs(quantity) <= cost_bounds::kMostQuantity)) return;
     if (!(ms >= cost_bounds::kShortestMs && ms <= cost_bounds::kLongestMs)) return;
     if (state_.images == 0 || (state_.images < kFirst && ms < firstMs_ / 2)) begin(x, ms);
+    noteChange(x, ms);
     ++state_.images;
-    const double error = ms - predict(x);
-    noteSpike(error, kSpike * deviation(x));
-    const double sigma = deviation(x), limit = kCounted * sigma;
+    const double error = ms - predict(x), sigma = deviation(x), limit = kCounted * sigma;
     const double counted = std::clamp(error, -limit, limit);
     const Quantities p = covarianceTimes(x);
     const double variance = sigma * sigma;
@@ -66,7 +65,7 @@ class LinearCost {
     for (std::size_t i = 0; i < N; ++i)
       for (std::size_t j = 0; j < N; ++j) state_.covariance[i][j] -= p[i] * p[j] / variance;
     keepCostsPositive();
-    for (std::size_t i = 0; i < N; ++i) drift(i);
+    for (std::size_t i = 0; i < N; ++i) loosen(i, i == 0 ? kFirstDrift : kDrift);
     state_.noise += kNoiseGain * (counted * counted - known - state_.noise);
     state_.noise = std::clamp(state_.noise, kLeastNoise * ms * kLeastNoise * ms,
                               cost_bounds::kLongestMs * cost_bounds::kLongestMs);
@@ -135,14 +134,16 @@ class LinearCost {
   static constexpr double kLeastVariance =
       kDrift * kDrift / 2;  ///< of a coefficient, in squares of its scale
   static constexpr int kChange = 5;
-  static constexpr double kFirst = 8;  ///< images among which the first may be forgotten
+  static constexpr double kMostRatio = 8;  ///< between the times of one machine before and after a change
+  static constexpr double kFirst = 8;      ///< images among which the first may be forgotten
 
   void begin(const Quantities& x, double ms) {
     state_ = {};
     firstMs_ = ms;
+    const auto there = std::count_if(x.begin(), x.end(), [](double quantity) { return quantity > 0; });
     for (std::size_t i = 0; i < N; ++i) {
-      state_.scale[i] =
-          ms / static_cast<double>(N) / (x[i] > 0 ? std::max(x[i], cost_bounds::kLeastQuantity) : 1);
+      state_.scale[i] = ms / static_cast<double>(std::max<std::ptrdiff_t>(there, 1)) /
+                        (x[i] > 0 ? std::max(x[i], cost_bounds::kLeastQuantity) : 1);
       state_.coefficient[i] = x[i] > 0 ? state_.scale[i] : 0;
       state_.covariance[i][i] = state_.scale[i] * state_.scale[i];
     }
@@ -175,8 +176,6 @@ class LinearCost {
     return product;
   }
 
-  void drift(std::size_t i) { loosen(i, i == 0 ? kFirstDrift : kDrift); }
-
   /// Makes a coefficient less certain by a part of its scale.
   void loosen(std::size_t i, double partOfScale) {
     const double step = partOfScale * state_.scale[i];
@@ -187,12 +186,19 @@ class LinearCost {
     for (std::size_t j = 0; j < N; ++j) state_.covariance[i][j] *= part, state_.covariance[j][i] *= part;
   }
 
-  void noteSpike(double error, double limit) {
+  /// After a change of the machine every coefficient is so many times as large, which is all that a single
+  /// image can say, and uncertain. A machine that is another one altogether is learned from the beginning.
+  void noteChange(const Quantities& x, double ms) {
+    const double expected = predict(x), error = ms - expected, limit = kSpike * deviation(x);
     const int sign = error > limit ? 1 : error < -limit ? -1 : 0;
     streak_ = sign != 0 && sign * streak_ >= 0 ? streak_ + sign : sign;
     if (std::abs(streak_) < kChange) return;
     streak_ = 0;
-    for (std::size_t i = 0; i < N; ++i) state_.covariance[i][i] += state_.scale[i] * state_.scale[i] / 4;
+    if (!(ms < kMostRatio * expected && expected < kMostRatio * ms)) return begin(x, ms);
+    for (std::size_t i = 0; i < N; ++i) {
+      state_.coefficient[i] = std::min(state_.coefficient[i] * ms / expected, cost_bounds::kMostCost);
+      state_.covariance[i][i] += state_.scale[i] * state_.scale[i] / 4;
+    }
   }
 
   State state_;
