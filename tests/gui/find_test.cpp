@@ -20,6 +20,7 @@
 #include "views/controls/number_box.h"
 #include "views/controls/parameter_of.h"
 #include "views/model/theme.h"
+#include "views/panels/budget_strip.h"
 #include "views/panels/plots_panel.h"
 #include "views/plots/time_plot.h"
 
@@ -101,6 +102,18 @@ TEST_F(WorkbenchFind, ctrlKFindsCommandsParametersDocksAndPresetsByKeysAlone) {
   EXPECT_TRUE(palette_->isVisible()) << "nothing to run";
   QTest::keyClick(&palette_->input(), Qt::Key_Escape);
   EXPECT_FALSE(palette_->isVisible());
+}
+
+TEST_F(WorkbenchFind, aLeverHasOneNameThatFindsItsKnob) {
+  ASSERT_NO_FATAL_FAILURE(find("allowed error"));
+  EXPECT_EQ(row(0), "Allowed error (lod.screen_space_error_px)");
+  QTest::keyClick(&palette_->input(), Qt::Key_Escape);
+  w().dock("preset")->close();
+  emit w().strip().knobAsked("lod.screen_space_error_px");
+  EXPECT_TRUE(comesToFront("preset"));
+  EXPECT_TRUE(waitFor([] {
+    return views::parameterOf(QApplication::focusWidget()) == QLatin1String("lod.screen_space_error_px");
+  })) << "the strip opens the knob that it names";
 }
 
 TEST_F(WorkbenchFind, ctrlKOpensTheFlightsThatShip) {

@@ -102,6 +102,16 @@ TEST_F(BudgetPanelTest, beginsWithItsSwitchAndSaysWhereTheLimitComesFrom) {
   EXPECT_NE(first->findChild<QCheckBox*>(), nullptr) << "the switch comes first";
 }
 
+TEST_F(BudgetPanelTest, saysThatItLeavesTheLeversAloneWherePredictionsAreOff) {
+  LiveFrame frame = frameAt(1, HoldReason::not_trusted, 1);
+  frame.hold.held = frame.hold.asked;
+  panel.showFrame(frame);
+  panel.show();
+  settle();
+  EXPECT_EQ(panel.reasons().count(), 1);
+  EXPECT_TRUE(panel.stateText().contains("predict")) << panel.stateText().toStdString();
+}
+
 TEST_F(BudgetPanelTest, stacksPredictedAndMeasuredStagesOnOneScaleAndShowsHowFarOffTheyWere) {
   BudgetPlot& plot = panel.plot();
   for (int i = 0; i < 20; ++i) {

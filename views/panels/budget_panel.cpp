@@ -275,7 +275,9 @@ void BudgetPanel::note(const LiveFrame& frame) {
   // Levers that come back step by step are one change.
   if (reason == noted_ && reason != HoldReason::lowered) return;
   noted_ = reason;
-  if (!moves && reason != HoldReason::out_of_reach && reason != HoldReason::fits) return;
+  if (!moves && reason != HoldReason::out_of_reach && reason != HoldReason::fits &&
+      reason != HoldReason::not_trusted)
+    return;
   std::string text = explain(shown_);
   if (const QString won = frame.levers ? wonText(*frame.levers, frame.holdGains) : QString(); !won.isEmpty())
     text += "; " + won.toStdString();
