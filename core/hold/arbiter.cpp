@@ -19,8 +19,8 @@ constexpr double kReserve = 0.08;
 constexpr double kExchange = 1.5;
 /// Where nothing fits, a setting that takes so many times as long as the quickest does as well.
 constexpr double kAlike = 1.02;
-/// Predictions are not trusted once the median of the last ones is off by this part of the budget, until it
-/// is off by half as much.
+/// Predictions are not trusted once the median of the last ones is off by this part of the budget, or of the
+/// quickest image if that is longer, until it is off by half as much.
 constexpr double kMostOff = 0.3;
 /// The allowed error waits no longer for meshes.
 constexpr double kMostBuildingMs = 2000;
@@ -259,14 +259,15 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
   const HoldSteps before = within(choice, memory.steps);
   const Search search(given, choice, memory.begun ? before.error : kNoPlace);
   d.askedMs = d.heldMs = search.predictAt({});
-  memory.distrusts = given.cost.offMs > kMostOff * given.budgetMs / (memory.distrusts ? 2 : 1);
+  const double askedMs = d.askedMs.total(), leastMs = search.leastMs();
+  const double mostOffMs = kMostOff * std::max(given.budgetMs, leastMs);
+  memory.distrusts = given.cost.offMs > mostOffMs / (memory.distrusts ? 2 : 1);
   if (memory.distrusts) {
     memory = {.steps = {}, .timeS = memory.timeS, .distrusts = true};
     d.reason = HoldReason::not_trusted;
     return d;
   }
 
-  const double askedMs = d.askedMs.total(), leastMs = search.leastMs();
   const bool reaches = leastMs <= d.limitMs;
   // Where nothing fits, lowering is for those images that it makes shorter by more than the reserve.
   const double nearlyMs = askedMs * (1 - kReserve) <= leastMs ? askedMs : kAlike * leastMs;

@@ -155,10 +155,8 @@ void ClockModel::restore(const State& state) {
 
 void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
   const double before = orZero(cost.decide) + orZero(cost.occlusion) + orZero(cost.page);
-  if (!isTime(cost.gpu)) {
-    const double other = before + orZero(cost.symbology);
-    return processor_.observe(load, {cost.total, other, cost.weather, cost.blur});
-  }
+  if (!isTime(cost.gpu))
+    return processor_.observe(load, {cost.total, before + orZero(cost.symbology), cost.weather, cost.blur});
   // Beside a GPU the processor draws no pixel. What it does for particles nobody measures apart.
   processor_.observe({load.triangles, 0, 0, load.particles, false}, {cost.total, before, 0, 0, false});
   if (loads_.size() > kMostLate) {

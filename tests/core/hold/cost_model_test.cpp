@@ -205,7 +205,7 @@ TEST(CostModel, learnsNoNumberOutsideItsRange) {
     for (int stay = 0; stay < 5; ++stay) {
       const FrameLoad around{anyOf(1, 1e9), anyOf(1e-9, 100), anyOf(1e-4, 100), 0, false};
       const double ms = anyOf(1e-3, 5e4);
-      for (int i = 0; i < 60; ++i) {
+      for (int i = 0; i < 300; ++i) {
         FrameLoad load = around;
         load.triangles = i % 7 == 0 ? 0 : around.triangles * machine.between(0.5, 2);
         load.groundMpx *= machine.between(0, 1);
@@ -228,7 +228,7 @@ TEST(CostModel, learnsNoNumberOutsideItsRange) {
 
 /// Numbers of a file that are in their ranges, but were never learned here, and so certain that nothing could
 /// be learned.
-TEST(CostModel, thatPredictsNothingIsLearnedFromTheBeginning) {
+TEST(CostModel, thatPredictsNothingIsLearnedAgain) {
   Machine machine;
   CostModel good;
   for (int i = 0; i < 200; ++i) {
@@ -243,7 +243,7 @@ TEST(CostModel, thatPredictsNothingIsLearnedFromTheBeginning) {
   }
   CostModel model;
   model.restore(state);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 300; ++i) {
     const FrameLoad load = machine.nextLoad();
     model.observe(load, machine.cost(load));
   }

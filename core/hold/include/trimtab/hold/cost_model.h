@@ -127,7 +127,6 @@ class ClockModel {
 /// image that it can belong to.
 class CostModel {
  public:
-  /// Learns from an image.
   void observe(const FrameLoad& load, const FrameCost& cost);
   /// Tells that a lever moved in the last image, of which nothing is learned: it also made levels, or resized
   /// its target.
@@ -144,7 +143,6 @@ class CostModel {
   struct State {
     ClockModel::State processor, gpu;
 
-    /// See ClockModel::State.
     template <class Self, class Visit>
     static void forEachNumber(Self& self, const Visit& visit) {
       ClockModel::State::forEachNumber(self.processor, "processor.", visit);

@@ -123,7 +123,10 @@ class LinearCost {
   /// machine may have changed since.
   void restore(const State& state) {
     state_ = state;
-    for (std::size_t i = 0; i < N; ++i) loosen(i, kDistrust);
+    for (std::size_t i = 0; i < N; ++i) {
+      state_.scale[i] = std::max(state_.scale[i], kDistrust * state_.coefficient[i]);
+      loosen(i, kDistrust);
+    }
   }
 
  private:
@@ -187,16 +190,16 @@ class LinearCost {
   }
 
   /// After a change of the machine every coefficient is so many times as large, which is all that a single
-  /// image can say, and uncertain. A machine that is another one altogether is learned from the beginning.
+  /// image can say, and uncertain.
   void noteChange(const Quantities& x, double ms) {
     const double expected = predict(x), error = ms - expected, limit = kSpike * deviation(x);
     const int sign = error > limit ? 1 : error < -limit ? -1 : 0;
     streak_ = sign != 0 && sign * streak_ >= 0 ? streak_ + sign : sign;
     if (std::abs(streak_) < kChange) return;
     streak_ = 0;
-    if (!(ms < kMostRatio * expected && expected < kMostRatio * ms)) return begin(x, ms);
+    const double ratio = std::clamp(ms / std::max(expected, ms / kMostRatio), 1 / kMostRatio, kMostRatio);
     for (std::size_t i = 0; i < N; ++i) {
-      state_.coefficient[i] = std::min(state_.coefficient[i] * ms / expected, cost_bounds::kMostCost);
+      state_.coefficient[i] = std::min(state_.coefficient[i] * ratio, cost_bounds::kMostCost);
       state_.covariance[i][i] += state_.scale[i] * state_.scale[i] / 4;
     }
   }
