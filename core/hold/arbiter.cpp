@@ -58,7 +58,7 @@ struct Choice {
 };
 
 /// The part of the loss from 1 to 16 px that lies between two errors, of which the first may not be smaller.
-/// FLIP over Kansai rises by 0.0025, 0.011 and 0.033 from 1 px to 2, 4 and 8 px (resources/docs/results.md).
+/// The power is that of FLIP over Kansai, which rises by 0.0025, 0.011 and 0.033 from 1 px to 2, 4 and 8 px.
 double errorLoss(double errorPx, double freePx) {
   const auto power = [](double px) { return px * std::sqrt(px); };
   return std::max(power(errorPx) - power(freePx), 0.0) / (power(16) - power(1));
