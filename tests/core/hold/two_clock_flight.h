@@ -93,12 +93,12 @@ class TwoClockFlight {
       if (holds) {
         std::vector<ComingEye> coming;
         for (int k = 1; k <= 5; ++k) coming.push_back({requestAt(i + k).eye, requestAt(i + k).attitude});
-        const double errorPx = request.lod.screenSpaceError.value();
+        const double errorPx = request.levers.policy.errorPx;
         d = hold.decide(hold.look(request, coming, c.budgetMs, errorPx), p, request);
       }
       const double noise = std::normal_distribution<double>(1, 0.03)(random);
-      const double triangles = trianglesOf(request, request.lod.screenSpaceError.value());
-      gpu.push_back(noise * machine.gpuMs(triangles, mpxOf(request, request.renderScale)));
+      const double triangles = trianglesOf(request, request.levers.drawn.errorPx);
+      gpu.push_back(noise * machine.gpuMs(triangles, mpxOf(request, request.levers.drawn.renderScale)));
       FrameResult result;
       result.visible.triangles = static_cast<std::uint64_t>(triangles);
       result.cost.total = noise * machine.processorMs(triangles);
@@ -128,7 +128,7 @@ class TwoClockFlight {
     return request;
   }
   double trianglesOf(FrameRequest request, double errorPx) {
-    setAllowedError(request, errorPx);
+    request.levers.drawn = withBudget(request.levers.policy, {errorPx, 1, 1, 1});
     const EyePose eye{index_->frame.fromGeodetic(request.eye),
                       eyeAxes(index_->frame, request.eye, request.attitude)};
     const CutRule rule = cutKeyOf(request, eye.position, 1).rule;

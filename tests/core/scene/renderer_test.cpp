@@ -94,7 +94,7 @@ TEST_F(Renderer, buildsAheadWhatAComingImageDraws) {
   r.method = CullingCase::none;
   const auto first = renderer.draw(r, offscreen->framebuffer());
   r.attitude.heading = Degrees{120};
-  setAllowedError(r, 8);
+  r.levers.drawn = withBudget(r.levers.drawn, {8, 1, 1, 1});
   const auto expected = [&] {  // as another renderer, which built nothing ahead, draws it
     scene::Renderer other;
     EXPECT_TRUE(other.initialize().usable);

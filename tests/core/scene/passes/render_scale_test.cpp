@@ -44,8 +44,7 @@ TEST_F(RenderScale, isTheSmallerImageScaledUpBetweenItsPixels) {
     const auto scaled = picture(ofMountains(scale));
     auto smaller = ofMountains(1);
     smaller.view = scaledShape(smaller.view, scale);
-    smaller.levers.drawn.errorPx = Pixels{smaller.levers.drawn.errorPx * pixelsPerRadian(smaller.view) /
-                                          pixelsPerRadian(ofMountains(1).view)};
+    smaller.levers.drawn.errorPx *= pixelsPerRadian(smaller.view) / pixelsPerRadian(ofMountains(1).view);
     const auto small = picture(smaller);
     double worst = 0;
     for (int y = 0; y < kHeight; ++y)
