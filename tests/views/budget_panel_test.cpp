@@ -91,7 +91,9 @@ TEST_F(BudgetPanelTest, saysHowManyMillisecondsEachLeverTakesOff) {
 }
 
 TEST_F(BudgetPanelTest, beginsWithItsSwitchAndSaysWhereTheLimitComesFrom) {
-  draft.setValues({{"hold.enabled", true}, {"measure.budget_ms", 16.7}, {"hold.margin", 0.08}}, "budget");
+  for (const auto& [key, text] : {std::pair{"hold.enabled", "true"}, std::pair{"measure.budget_ms", "16.7"},
+                                  std::pair{"hold.margin", "0.08"}})
+    ASSERT_TRUE(draft.setText(key, text).empty());
   LiveFrame frame = frameAt(1, HoldReason::lowered, 4);
   frame.hold.limitMs = 12.5;
   panel.showFrame(frame);

@@ -75,7 +75,8 @@ TEST(BudgetMinute, noLeverSavesMoreThanTheImageTookForIt) {
 
 TEST(BudgetStrip, aClickOpensTheKnobThatItNamesAndNoneThatIsAtItsCap) {
   Draft draft;
-  draft.setValues({{"hold.enabled", true}, {"hold.error_maximum_px", 16.0}}, "budget");
+  ASSERT_TRUE(draft.setText("hold.enabled", "true").empty());
+  ASSERT_TRUE(draft.setText("hold.error_maximum_px", "16").empty());
   BudgetStrip strip(draft);
   strip.show();
   QStringList asked;
