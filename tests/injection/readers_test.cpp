@@ -65,7 +65,7 @@ TEST_F(Injection, ofReadingACostModel) {
                                  [](const fs::path& folder) -> Result<std::string> {
                                    const auto state = readCostModel(folder / "m.json", "machine");
                                    if (!state) return state.findings();
-                                   return "band " + std::to_string(state->band);
+                                   return "band " + std::to_string(state->processor.band);
                                  }});
 }
 

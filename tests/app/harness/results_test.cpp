@@ -196,7 +196,7 @@ TEST(Comparison, pairsFramesAndCancelsWhatTheirDrawsShare) {
         units.push_back({{flight, preset, method}, {}, {}, {}, 0, {}});
   // q takes 0.8 of p, view_frustum 0.5 of none, and the machine swings by the factor e from draw to draw.
   for (std::size_t row = 0; row < 12; ++row) {
-    for (Unit& unit : units) unit.frames.push_back({row, 0, {}, {}, {}, {}});
+    for (Unit& unit : units) unit.frames.push_back({row, 0, {}, {}, {}, {}, {}});
     for (int repeat = 0; repeat < 5; ++repeat) {
       const double now = mood(random);
       for (Unit& unit : units)
