@@ -23,7 +23,8 @@ inline double geometricBoundPx(const FrameRequest& request) {
     return std::numeric_limits<double>::infinity();
   double cutPx = request.levers.drawn.errorPx * request.levers.drawn.lodScale;
   if (asksForTrees(request)) {
-    const StaticLodParameters& s = request.staticLod;
+    StaticLodParameters s = request.staticLod;
+    s.errorPx = Pixels{request.levers.drawn.treeErrorPx};
     if (s.error != ErrorMeasure::maximum || request.overlays.treeDepth >= 0)
       return std::numeric_limits<double>::infinity();
     const double scale = pixelsPerRadian(v);
