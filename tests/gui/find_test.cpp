@@ -108,7 +108,7 @@ TEST_F(WorkbenchFind, aLeverHasOneNameThatFindsItsKnob) {
   ASSERT_NO_FATAL_FAILURE(find("allowed error"));
   EXPECT_EQ(row(0), "Allowed error (lod.screen_space_error_px)");
   QTest::keyClick(&palette_->input(), Qt::Key_Escape);
-  w().dock("preset")->close();
+  ASSERT_NO_FATAL_FAILURE(activate());
   emit w().strip().knobAsked("lod.screen_space_error_px");
   EXPECT_TRUE(comesToFront("preset"));
   EXPECT_TRUE(waitFor([] {

@@ -29,6 +29,7 @@ class LiveFlight {
     f.input.state.packet = frame_++;
     f.decision =
         decide(inputAt(6200 - 3400 * std::cos(t * 0.06), 14 * std::sin(t * 0.35) - 3), parameters, memory_);
+    f.levers = leversOf(f.decision, *parameters);
     const double size = f.decision.occlusionResolution ? f.decision.occlusionResolution->widthPx *
                                                              f.decision.occlusionResolution->heightPx / 480e3
                                                        : 0;

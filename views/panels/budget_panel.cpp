@@ -154,8 +154,8 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
   layout->addWidget(new ParameterLines(draft, kSwitchKeys));
   layout->addWidget(limit_);
   layout->addWidget(state_);
-  layout->addWidget(levers_);
   layout->addWidget(plot_);
+  layout->addWidget(levers_);
   layout->addLayout(makeRecorder());
   layout->addWidget(residuals_);
   layout->addWidget(new QLabel(tr("<b>Changes</b>")));
