@@ -152,7 +152,7 @@ class Tour : public Bench {
     keysOf("Find anything");
     auto* const palette = w().findChild<workbench::Palette*>();
     ASSERT_TRUE(waitFor([&] { return palette->isVisible() && palette->input().hasFocus(); }));
-    hand_->type("screen-space error");
+    hand_->type("allowed error");
     hand_->key(Qt::Key_Return);
     ASSERT_TRUE(waitFor([] { return views::parameterOf(QApplication::focusWidget()).startsWith("lod.s"); }));
     hand_->type("4");
