@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "views/panels/decision_panel.h"
 
+#include "views/controls/lever_chain_table.h"
+
 #include <QClipboard>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -120,6 +122,24 @@ TEST_F(DecisionPanelTest, savesTheLogAndSaysWhenItCannot) {
   const std::string saved = test::readFile(dir / "log.csv");
   EXPECT_EQ(std::count(saved.begin(), saved.end(), '\n'), 3);
   EXPECT_FALSE(panel_.saveLog(QString::fromStdString((dir / "no" / "log.csv").string())).empty());
+}
+
+TEST_F(DecisionPanelTest, showsWhoChangedEachLeverAndWhy) {
+  LiveFrame frame;
+  frame.decision = decide(test::inputAt(6000, 0), draft_.active(), memory_);
+  frame.decision.weather.farReason = FarReason::fixed;
+  frame.decision.weather.farM = 20e3;
+  frame.levers = leversOf(frame.decision, *draft_.active());
+  frame.hold.reason = HoldReason::lowered;
+  frame.levers->drawn = withBudget(frame.levers->policy, {8, 1, 1, 1});
+  panel_.showFrame(frame);
+  panel_.show();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return panel_.levers().item(0, 0)->text() == "8 px"; }));
+  EXPECT_EQ(panel_.levers().item(0, 1)->text(), "preset 2 px, budget 8 px");
+  EXPECT_TRUE(panel_.levers().item(0, 1)->toolTip().contains("lowered to"));
+  EXPECT_EQ(panel_.levers().item(1, 1)->text(), "preset");
+  EXPECT_EQ(panel_.levers().item(3, 1)->text(), "preset unlimited, weather 20000 m");
+  EXPECT_TRUE(panel_.levers().item(3, 1)->toolTip().contains("fixed"));
 }
 
 TEST_F(DecisionPanelTest, showsSchemeAndReason) {

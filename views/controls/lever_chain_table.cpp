@@ -8,26 +8,21 @@
 namespace trimtab::views {
 
 LeverChainTable::LeverChainTable(QWidget* parent)
-    : QTableWidget(int(kFrameLeverRows.size()), int(kLeverSteps) + 1, parent) {
+    : QTableWidget(int(kFrameLeverRows.size()), kColumns, parent) {
   setAccessibleName(tr("Levers, from the preset to the image"));
-  QStringList levers, steps;
+  QStringList levers;
   for (const FrameLeverRow& row : kFrameLeverRows) levers << fromView(row.label);
-  for (std::size_t i = 0; i < kLeverSteps; ++i) {
-    QString name = fromView(toText(static_cast<LeverStep>(i)));
-    name[0] = name[0].toUpper();
-    steps << name;
-  }
   setVerticalHeaderLabels(levers);
-  setHorizontalHeaderLabels(steps << tr("Drawn"));
-  horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  setHorizontalHeaderLabels({tr("Drawn"), tr("From the preset on")});
+  horizontalHeader()->setSectionResizeMode(kDrawn, QHeaderView::ResizeToContents);
+  horizontalHeader()->setSectionResizeMode(kChain, QHeaderView::Stretch);
   setEditTriggers(QAbstractItemView::NoEditTriggers);
   setSelectionMode(QAbstractItemView::NoSelection);
-  for (int row = 0; row < rowCount(); ++row)
-    for (int column = 0; column < columnCount(); ++column) {
-      auto* item = new QTableWidgetItem;
-      item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-      setItem(row, column, item);
-    }
+  for (int row = 0; row < rowCount(); ++row) {
+    setItem(row, kDrawn, new QTableWidgetItem);
+    setItem(row, kChain, new QTableWidgetItem);
+    item(row, kDrawn)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  }
   const int rowHeight = fontMetrics().height() + 6;
   verticalHeader()->setDefaultSectionSize(rowHeight);
   setFixedHeight(rowHeight * (rowCount() + 1) + 6);
@@ -37,21 +32,17 @@ LeverChainTable::LeverChainTable(QWidget* parent)
 void LeverChainTable::showChain(const LeverChain& chain, const std::array<QString, kLeverSteps>& reasons) {
   for (std::size_t i = 0; i < kFrameLeverRows.size(); ++i) {
     const FrameLeverRow& row = kFrameLeverRows[i];
+    const LeverStep last = lastChange(chain, row);
     const QString whole = QString::fromStdString(explain(chain, row));
-    for (std::size_t s = 0; s <= kLeverSteps; ++s) {
-      const bool last = s == kLeverSteps;
-      const FrameLevers& now = last ? chain.drawn : chain.after(static_cast<LeverStep>(s));
-      const bool changes =
-          last || s == 0 || valueOf(now, row) != valueOf(chain.after(static_cast<LeverStep>(s - 1)), row);
-      QTableWidgetItem& cell = *item(int(i), int(s));
-      cell.setText(changes ? QString::fromStdString(valueText(now, row)) : QString());
-      cell.setToolTip(whole);
-      QFont text = font();
-      text.setBold(last && lastChange(chain, row) != LeverStep::preset);
-      cell.setFont(text);
+    QFont text = font();
+    text.setBold(last != LeverStep::preset);
+    item(int(i), kDrawn)->setText(QString::fromStdString(valueText(chain.drawn, row)));
+    item(int(i), kChain)->setText(last == LeverStep::preset ? fromView(toText(last)) : whole);
+    for (const int column : {kDrawn, kChain}) {
+      item(int(i), column)->setFont(text);
+      item(int(i), column)->setToolTip(tr("%1. %2").arg(whole, reasons[static_cast<std::size_t>(last)]));
     }
   }
-  for (std::size_t s = 0; s < kLeverSteps; ++s) horizontalHeaderItem(int(s))->setToolTip(reasons[s]);
 }
 
 }  // namespace trimtab::views

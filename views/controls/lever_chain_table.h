@@ -7,11 +7,12 @@
 
 namespace trimtab::views {
 
-/// The chain of the levers: a row a lever, a column a step. A cell is empty where the step left the lever as
-/// it was; the last column is what is drawn.
+/// The chain of the levers: a row for each lever, with what is drawn and with who changed it to what.
 class LeverChainTable : public QTableWidget {
   Q_OBJECT
  public:
+  enum Column { kDrawn, kChain, kColumns };
+
   explicit LeverChainTable(QWidget* parent = nullptr);
   /// Shows a chain. A column's header says why its step did what it did: `reasons`, in the order of the
   /// steps.
