@@ -85,7 +85,8 @@ std::string cellText(double value) {
 
 }  // namespace
 
-/// Of kFrameLeverRows. No limit is no number.
+/// Returns the quantity of a row of kFrameLeverRows. An infinite lever has no limit, so it counts as not
+/// measured.
 template <std::size_t Row>
 Quantity lever() {
   constexpr FrameLeverRow kRow = kFrameLeverRows[Row];

@@ -14,8 +14,8 @@ class LeverChainTable : public QTableWidget {
   enum Column { kDrawn, kChain, kColumns };
 
   explicit LeverChainTable(QWidget* parent = nullptr);
-  /// Shows a chain. A column's header says why its step did what it did: `reasons`, in the order of the
-  /// steps.
+  /// Shows a chain. The tip of a row says why the step that changed the lever last did so. `reasons` has one
+  /// reason for each step, in their order.
   void showChain(const LeverChain& chain, const std::array<QString, kLeverSteps>& reasons);
 };
 
