@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
@@ -15,6 +14,9 @@ namespace {
 constexpr double kFewestParticles = 0.05;
 /// How many times of what belongs to no load, and how many errors of predictions, are remembered.
 constexpr std::size_t kOthers = 9, kRecent = 50;
+/// After so many predictions in a row of which each is more than twice too long or too short, a clock has
+/// numbers that it can no longer correct, as from a damaged file. What is forgotten then is worth nothing.
+constexpr int kHopeless = 100;
 /// So many images late a time of the GPU may be, because its stamps go round a ring of four frames.
 constexpr std::size_t kMostLate = 3;
 /// Triangles count by ten thousands, so that all quantities are of one order.
@@ -44,16 +46,17 @@ double orZero(double ms) {
   return isTime(ms) ? ms : 0;
 }
 
-/// Keeps the last `most` values.
+/// Keeps the last `most` values, of which there are at most kRecent.
 void push(std::deque<double>& values, std::size_t most, double value) {
   if (values.size() == most) values.pop_front();
   values.push_back(value);
 }
 double medianOf(const std::deque<double>& values) {
   if (values.empty()) return 0;
-  std::vector<double> sorted(values.begin(), values.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  std::array<double, kRecent> sorted{};
+  const auto end = std::copy(values.begin(), values.end(), sorted.begin());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(sorted.begin(), middle, end);
   return *middle;
 }
 
@@ -101,6 +104,8 @@ void ClockModel::observe(const FrameLoad& load, const ClockTimes& times) {
   if (known()) {
     const double error = std::abs(times.work - expected.total());
     push(off_, kRecent, error);
+    const bool near = expected.total() <= 2 * times.work && times.work <= 2 * expected.total();
+    farOff_ = near ? 0 : farOff_ + 1;
     // A running quantile: it rises nine times as fast as it falls, and rests where one image in ten is
     // outside.
     constexpr double kStep = 0.02;
@@ -114,9 +119,12 @@ void ClockModel::observe(const FrameLoad& load, const ClockTimes& times) {
   push(others_, kOthers, times.other);
   other_ = medianOf(others_);
   ++images_;
-  if (ground_.state().isFinite() && weather_.state().isFinite() && blur_.state().isFinite()) return;
-  Finding why{Severity::warning, "cost model", "", "finite numbers",
-              "one that is not finite after " + std::to_string(images_) + " images; it is learned anew"};
+  const bool finite = ground_.state().isFinite() && weather_.state().isFinite() && blur_.state().isFinite();
+  if (finite && farOff_ < kHopeless) return;
+  Finding why{Severity::warning, "cost model", "prediction",
+              finite ? "about " + numberText(times.work, 3) + " ms, which the image took" : "finite numbers",
+              numberText(expected.total(), 3) + " ms after " + std::to_string(images_) +
+                  " images, and many as far off before; it is learned anew"};
   if (whyAnew_) why = *whyAnew_;
   *this = ClockModel();
   whyAnew_ = std::move(why);

@@ -290,5 +290,55 @@ TEST(CostModel, ofAMachineThatChangesDoesNotBeginAnew) {
   EXPECT_FALSE(model.whyAnew());
 }
 
+/// Numbers of a saved model that are within their ranges, far off and sure of themselves do not blind the
+/// budget for good: the model corrects them to less than twice too long or too short, or begins anew.
+TEST(CostModel, recoversFromSavedNumbersThatAreFarOff) {
+  for (const double factor : {1e-6, 1e-3, 1e3, 1e6}) {
+    Machine machine;
+    CostModel model;
+    for (int i = 0; i < 300; ++i) {
+      const FrameLoad load = machine.nextLoad();
+      model.observe(load, machine.cost(load));
+    }
+    CostModel::State state = model.state();
+    auto& ground = state.processor.ground;
+    for (double& coefficient : ground.coefficient) coefficient *= factor;
+    // As sure of them as if they were small.
+    for (double& scale : ground.scale) scale *= 1e-6;
+    for (auto& row : ground.covariance)
+      for (double& covariance : row) covariance *= 1e-12;
+    model.restore(state);
+    std::vector<double> errors;
+    for (int i = 0; i < 400; ++i) {
+      const FrameLoad load = machine.nextLoad();
+      const FrameCost cost = machine.cost(load);
+      if (i >= 200) errors.push_back(std::abs(predictedMs(model, load) / cost.total - 1));
+      model.observe(load, cost);
+    }
+    std::nth_element(errors.begin(), errors.begin() + 100, errors.end());
+    EXPECT_LT(errors[100], 0.5) << factor;
+  }
+}
+
+/// Times of the GPU come up to three images late, so those that arrive after a move may be of the image
+/// before.
+TEST(CostModel, aTimeOfTheGpuFromBeforeALeverMovedTeachesNothing) {
+  CostModel model;
+  const auto cost = [](double gpuMs) {
+    FrameCost c;
+    c.total = 2;
+    c.gpu = gpuMs;
+    return c;
+  };
+  const FrameLoad fine{100'000, 0.5, 0.9, 0, false}, coarse{10'000, 0.5, 0.9, 0, false};
+  for (int i = 0; i < 100; ++i) model.observe(fine, cost(10));
+  const double before = predict(model.coefficients(coarse), coarse).total();
+  model.leversMoved();
+  for (int i = 0; i < 3; ++i) model.observe(coarse, cost(10));
+  EXPECT_EQ(predict(model.coefficients(coarse), coarse).total(), before);
+  for (int i = 0; i < 100; ++i) model.observe(coarse, cost(4));
+  EXPECT_NEAR(predict(model.coefficients(coarse), coarse).total(), 4, 0.2);
+}
+
 }  // namespace
 }  // namespace trimtab

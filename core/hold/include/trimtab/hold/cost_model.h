@@ -116,6 +116,7 @@ class ClockModel {
   std::deque<double> others_;  ///< the last times of what `other_` is the median of
   std::deque<double> off_;     ///< by how much the last predictions were off, milliseconds
   std::size_t images_ = 0;
+  int farOff_ = 0;  ///< predictions in a row
   std::optional<Finding> whyAnew_;
 };
 
