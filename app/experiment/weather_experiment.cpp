@@ -78,6 +78,7 @@ Result<Report> runWeather(const Setup& setup) {
                              "hold_render_scale",
                              "outcome"};
   const double runs = double(kVertices.size() * kFalls.size() * kDensities.size());
+  std::size_t notTrusted = 0;
   double done = 0;
   for (const double wanted : kVertices) {
     if (setup.progress && !setup.progress(done / runs, "finding the view")) return cancelled();
@@ -103,6 +104,7 @@ Result<Report> runWeather(const Setup& setup) {
           const PairedRatio gain = pairedRatio(ms[0], ms[1]);
           const double clearMs = quantileOf(ms[0], 0.5);
           const WeatherView::Held held = view.held({}, kHeld);
+          notTrusted += held.reason == HoldReason::not_trusted;
           report.measured.rows.push_back({reached,
                                           fall.name,
                                           "clear",
@@ -141,6 +143,7 @@ Result<Report> runWeather(const Setup& setup) {
         const PairedRatio gain = pairedRatio(ms[3], ms[1]), ofClear = pairedRatio(ms[0], ms[3]);
         const scene::CutError lost = view.cutError(weather);
         const WeatherView::Held held = view.held(uncut, kHeld);
+        notTrusted += held.reason == HoldReason::not_trusted;
         report.measured.rows.push_back({reached,
                                         fall.name,
                                         kDensities[d],
@@ -201,6 +204,11 @@ Result<Report> runWeather(const Setup& setup) {
       "hold_ms_ratio is the median frame that the arbiter holds, without document D's cut, over the clear "
       "frame, drawn in turns; its budget is 1.05 of the clear frame, without margin and caution. "
       "hold_particles is the share of the preset's density that it keeps.");
+  if (notTrusted > 0)
+    report.notes.push_back("In " + std::to_string(notTrusted) + " of " +
+                           std::to_string(report.measured.rows.size()) +
+                           " rows times on this machine vary too much for the arbiter to trust its "
+                           "predictions, so it lowers nothing there.");
   for (const Fall& fall : kFalls) report.plots.push_back(plotOf(report.measured, fall.name));
   return report;
 }

@@ -129,8 +129,9 @@ WeatherView::Held WeatherView::held(const WeatherDecision& weather, double overC
       request_.time += kFrameS;
       setWeather(falling);
       FrameRequest request = request_;
-      const HoldGiven given = hold_.look(request, {}, budgetMs, request.levers.policy.errorPx);
-      held.levers = hold_.decide(given, parameters, request).held;
+      const HoldGiven given = hold_.look(request, {}, budgetMs);
+      const HoldDecision decision = hold_.decide(given, parameters, request);
+      held.levers = decision.held, held.reason = decision.reason;
       const FrameResult result = heldStage_->draw(request);
       hold_.finished(result, result.cost);
       if (i >= kUncounted) heldMs.push_back(workMs(result.cost));

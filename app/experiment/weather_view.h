@@ -59,6 +59,7 @@ class WeatherView {
   struct Held {
     PairedRatio ofClear;  ///< its work time over that of the clear frame
     HeldLevers levers;
+    HoldReason reason = HoldReason::off;  ///< of the last image
   };
   /// Lets the arbiter hold the median frame of this weather to `overClear` times the clear frame. Once it has
   /// settled, some held and some clear frames are drawn in turns and compared. Either kind has a renderer of

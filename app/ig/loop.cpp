@@ -43,6 +43,8 @@ class Loop {
       else
         sleep();
     }
+    // What arrived before the stop is decided and counted, though no image can show it.
+    if (run_.wake.stop()) run_.feed.advance(run_.session, link::now());
     complain(link::now());
     return finishedSummary();
   }

@@ -316,9 +316,16 @@ TEST_F(Experiment, weatherUnderABudgetKeepsWhatFitsAndLowersWhatDoesNot) {
   ASSERT_TRUE(view) << toString(view.findings());
   const WeatherDecision rain = weatherOf((*view)->preset(), WeatherStep::rain_heavy, RatioMode::off);
   ASSERT_GT(rain.density, 0);
-  const HeldLevers ample = (*view)->held(rain, 1e4).levers, none = (*view)->held(rain, 1e-3).levers;
+  const HeldLevers ample = (*view)->held(rain, 1e4).levers;
+  const auto [ratio, none, reason] = (*view)->held(rain, 1e-3);
   EXPECT_EQ(ample.particleShare, 1);
   EXPECT_EQ(ample.renderScale, 1);
+  // On a machine that other programs slow down now and then, nobody can predict times.
+  if (reason == HoldReason::not_trusted) {
+    EXPECT_EQ(none, ample);
+    return;
+  }
+  EXPECT_EQ(reason, HoldReason::out_of_reach);
   EXPECT_GT(none.errorPx, ample.errorPx);
   EXPECT_LT(none.renderScale, 1);
   EXPECT_LT(none.particleShare, 1);
