@@ -178,16 +178,11 @@ std::vector<std::string> ruleTexts(const ValidatedParameters& parameters) {
 Json toJson(const TraceRow& row, const ValidatedParameters& parameters) {
   const FrameDecision& d = row.decision;
   const LeverChain& levers = row.levers;
-  Json firing = Json::array();
-  for (std::size_t i = 0; i < d.ruleFiring.count; ++i)
-    firing.push_back(
-        {{"rule", conditionsText(parameters->scheme.rules.rule[i], "-")}, {"firing", d.ruleFiring.mu[i]}});
   return {{"altitude_ft", d.altitudeFt},
           {"pitch_deg", d.pitchDeg},
           {"altitude_membership", d.altitudeMembership},
           {"pitch_membership", d.pitchMembership},
           {"total_membership", d.totalMembership},
-          {"rule_firing", std::move(firing)},
           {"scheme", toText(d.scheme)},
           {"band", d.band},
           {"depth_map_px", d.occlusionResolution

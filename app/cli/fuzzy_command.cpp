@@ -5,7 +5,6 @@
 
 #include "commands.h"
 #include "settings.h"
-#include "trimtab/fuzzy/rule_file.h"
 #include "trimtab/policy/policy_file.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/policy_lines.h"
@@ -19,14 +18,6 @@ struct FuzzyOptions {
   std::string preset = "default", file, output, format;
   std::vector<std::string> settings;
 };
-
-/// A part of the parameters that fuzzy-logic tools know too.
-struct Part {
-  Result<std::string> (*text)(const TuningParameters&, const std::string& name, RuleFormat);
-  Result<TuningParameters> (*read)(std::string_view text, const std::string& where, RuleFormat,
-                                   const TuningParameters& onto);
-};
-constexpr Part kRules{ruleFileText, readRuleFile};
 
 Result<std::string> policyText(const TuningParameters& parameters, const std::string& name,
                                RuleFormat format) {
@@ -46,8 +37,6 @@ Result<TuningParameters> readPolicy(std::string_view text, const std::string& wh
   parameters.policy.enabled = true;
   return parameters;
 }
-constexpr Part kPolicy{policyText, readPolicy};
-
 /// By --format, else by the file's ending.
 std::optional<RuleFormat> formatOf(const FuzzyOptions& options, const std::string& file) {
   if (!options.format.empty()) return options.format == "fis" ? RuleFormat::matlab : RuleFormat::fuzzylite;
@@ -57,18 +46,18 @@ std::optional<RuleFormat> formatOf(const FuzzyOptions& options, const std::strin
   return format;
 }
 
-int exportPart(const Part& part, const FuzzyOptions& options) {
+int exportPolicy(const FuzzyOptions& options) {
   const auto format = formatOf(options, options.output);
   if (!format) return kUsage;
   const auto parameters = parametersFor(options.preset, options.settings);
   if (!parameters) return kRefused;
   const auto preset = loadPreset(options.preset);
-  const auto text = part.text(**parameters, preset ? preset->name : std::string(), *format);
+  const auto text = policyText(**parameters, preset ? preset->name : std::string(), *format);
   report(text.findings());
   return text ? writeOut(options.output, *text) : kRefused;
 }
 
-int importPart(const Part& part, const FuzzyOptions& options) {
+int importPolicy(const FuzzyOptions& options) {
   const auto format = formatOf(options, options.file);
   if (!format) return kUsage;
   const auto base = loadPreset(options.preset);
@@ -76,7 +65,7 @@ int importPart(const Part& part, const FuzzyOptions& options) {
   report(base.findings());
   report(text.findings());
   if (!base || !text) return kRefused;
-  const auto read = part.read(*text, options.file, *format, base->parameters);
+  const auto read = readPolicy(*text, options.file, *format, base->parameters);
   report(read.findings());
   if (!read) return kRefused;
   Preset preset;
@@ -90,9 +79,14 @@ int importPart(const Part& part, const FuzzyOptions& options) {
   return written ? writeOut(options.output, *written) : kRefused;
 }
 
-void addPart(CLI::App& preset, int& exitCode, const char* name, const char* what, const Part& part) {
+}  // namespace
+
+void addFuzzy(CLI::App& preset, int& exitCode) {
   const auto options = std::make_shared<FuzzyOptions>();
-  CLI::App* const fuzzy = preset.add_subcommand(name, what);
+  CLI::App* const fuzzy = preset.add_subcommand(
+      "policy",
+      "Exchange the policy with fuzzy-logic tools (.fll, .fis): each signal that has terms is an input, each "
+      "lever that a rule sets an output; the preset of an import has its policy switched on");
   fuzzy->require_subcommand(1);
   const auto formatOption = [options](CLI::App* command) {
     command->add_option("--format", options->format, "fll or fis, where the file's ending does not say it")
@@ -107,7 +101,7 @@ void addPart(CLI::App& preset, int& exitCode, const char* name, const char* what
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   formatOption(exporting);
-  exporting->callback([&exitCode, options, part] { exitCode = exportPart(part, *options); });
+  exporting->callback([&exitCode, options] { exitCode = exportPolicy(*options); });
 
   CLI::App* const importing =
       fuzzy->add_subcommand("import", "Make a preset of them; everything else from --base");
@@ -116,18 +110,7 @@ void addPart(CLI::App& preset, int& exitCode, const char* name, const char* what
       ->default_str("default");
   importing->add_option("-o,--output", options->output, "Preset to write; - for standard output")->required();
   formatOption(importing);
-  importing->callback([&exitCode, options, part] { exitCode = importPart(part, *options); });
-}
-
-}  // namespace
-
-void addFuzzy(CLI::App& preset, int& exitCode) {
-  addPart(preset, exitCode, "fuzzy",
-          "Exchange rules and membership curves with fuzzy-logic tools (.fll, .fis)", kRules);
-  addPart(preset, exitCode, "policy",
-          "Exchange the policy with fuzzy-logic tools (.fll, .fis): each signal that has terms is an input, "
-          "each lever that a rule sets an output; the preset of an import has its policy switched on",
-          kPolicy);
+  importing->callback([&exitCode, options] { exitCode = importPolicy(*options); });
 }
 
 }  // namespace trimtab::cli

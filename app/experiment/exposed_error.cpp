@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
-#include "trimtab/hold/arbiter.h"
 #include "trimtab/measure/image_error.h"
 #include "trimtab/motion/line_of_sight.h"
 
@@ -50,7 +50,9 @@ ExposedError exposedError(scene::ErrorMeter& meter, const FrameRequest& request,
   const double seconds = request.time - last.time;
   if (!(seconds > 0)) return error;
   const double turned = degreesBetween(directionOf(last.attitude), directionOf(request.attitude));
-  const double smear = smearPx(turned / seconds, exposureMs, pixelsPerRadian(request.view));
+  // The way of a point at the image's centre during the exposure, pixels.
+  const double smear =
+      turned / seconds * exposureMs * 1e-3 * std::numbers::pi / 180 * pixelsPerRadian(request.view);
   if (!(smear >= 1)) return error;
   const int times = std::clamp(static_cast<int>(std::ceil(smear)), 2, kMostTimes);
   const double perExposure = exposureMs * 1e-3 / seconds;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "trimtab/fuzzy/bands.h"
 #include "trimtab/fuzzy/combination.h"
@@ -40,25 +41,12 @@ std::string bandText(const BandList& bands, int band) {
                    top ? "]" : ")");
 }
 
-/// The rules that fire, by how far: "low-down 0.3, high-down 0.7".
-std::string firingText(const RuleList& rules, const RuleFiring& firing) {
-  std::string text;
-  for (std::size_t i = 0; i < firing.count; ++i) {
-    if (!(firing.mu[i] > 0)) continue;
-    const std::string name = i < rules.size ? conditionsText(rules.rule[i], "-") : "a rule that is no more";
-    text += formatted("%s%s %.3f", text.empty() ? "" : ", ", name.c_str(), firing.mu[i]);
-  }
-  return text;
-}
-
 const char* combinationText(Combination combination) {
   switch (combination) {
     case Combination::sum:
       return "sum";
     case Combination::twice_minimum:
       return "twice the minimum";
-    case Combination::rules:
-      return "rules";
   }
   return "";
 }
@@ -83,16 +71,14 @@ std::string outcomeText(const FrameDecision& d) {
                    d.occlusionResolution->heightPx);
 }
 
-/// The total of the memberships.
-TotalMembership totalOf(const FrameDecision& d, const TuningParameters& parameters) {
-  return combine(parameters.scheme.combination, parameters.scheme.rules, d.ruleFiring, d.altitudeMembership,
-                 d.pitchMembership);
+double totalOf(const FrameDecision& d, const TuningParameters& parameters) {
+  return combine(parameters.scheme.combination, d.altitudeMembership, d.pitchMembership);
 }
 
 /// Documents A and B: the memberships and their total; nothing, with a reason, if the state does not give
 /// them.
-std::optional<TotalMembership> decideTotal(const FrameInput& input, const ValidatedParameters& parameters,
-                                           FrameDecision& decision) {
+std::optional<double> decideTotal(const FrameInput& input, const ValidatedParameters& parameters,
+                                  FrameDecision& decision) {
   const bool aboveGround = parameters->altitude.reference == AltitudeReference::above_ground;
   const std::optional<Metres> height = !aboveGround        ? std::optional(input.state.position.height)
                                        : input.aboveGround ? input.aboveGround
@@ -112,8 +98,6 @@ std::optional<TotalMembership> decideTotal(const FrameInput& input, const Valida
   decision.pitchDeg = pitch;
   decision.altitudeMembership = altitudeMembership(parameters->altitude, altitude);
   decision.pitchMembership = pitchMembership(parameters->pitch, pitch);
-  fireRules(parameters->scheme.rules, decision.altitudeMembership, decision.pitchMembership,
-            decision.ruleFiring);
   return totalOf(decision, *parameters);
 }
 
@@ -124,29 +108,33 @@ std::optional<OcclusionResolution> resolutionOf(const BandList& bands, int band)
 }
 
 /// Documents A and B: which scheme, and how large a depth map.
-void decideScheme(const TotalMembership& total, const ValidatedParameters& parameters, DecisionMemory& memory,
+void decideScheme(double total, const ValidatedParameters& parameters, DecisionMemory& memory,
                   FrameDecision& decision) {
-  decision.totalMembership = total.total;
+  decision.totalMembership = total;
   const BandList& bands = parameters->scheme.bands;
-  const BandChoice choice = nextBand(bands, parameters->scheme.hysteresis.value(), total.total, memory.band);
+  const BandChoice choice = nextBand(bands, parameters->scheme.hysteresis.value(), total, memory.band);
   memory.band = choice.band;
   setBand(decision, bands, choice.band);
-  if (!total.anyFires)
-    decision.reason = SchemeReason::no_rule_fires;
-  else if (choice.held)
+  if (choice.held)
     decision.reason = SchemeReason::held_by_hysteresis;
   else
     decision.reason = choice.band >= 0 ? SchemeReason::in_band : SchemeReason::below_first_band;
 }
 
-/// The levers of the preset's policy. `total` is what the occlusion rests at where no rule sets it.
+/// The levers of the preset's policy. `total` is what the occlusion rests at where no rule sets it; unset if
+/// the memberships are unknown.
 PolicyOutcome followPolicy(const CompiledPolicy& policy, const FrameInput& input,
-                           const ValidatedParameters& parameters, double total, DecisionMemory& memory) {
+                           const ValidatedParameters& parameters, std::optional<double> total,
+                           const FrameDecision& soFar, DecisionMemory& memory) {
   thread_local PolicyDecision decision;  // kept, so that a decision allocates nothing
-  policy.decide(input.signalValues, decision);
+  SignalValues signals = input.signalValues;
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  signals[Signal::altitude_membership] = total ? soFar.altitudeMembership : kUnknown;
+  signals[Signal::pitch_membership] = total ? soFar.pitchMembership : kUnknown;
+  policy.decide(signals, decision);
   LeverValues neutral;
   for (const LeverRow& row : kLeverRows) neutral[row.lever] = row.neutral;
-  neutral[Lever::occlusion] = total;
+  neutral[Lever::occlusion] = total.value_or(0);
   neutral[Lever::screen_space_error] = parameters->lod.screenSpaceError.value();
   neutral[Lever::lod_scale] = parameters->lod.scale.value();
   return {memory.levers.follow(input.state.time, decision.target, neutral).value, policy.levers(),
@@ -163,15 +151,14 @@ FrameDecision decide(const FrameInput& input, const WeatherDecision& weather,
                      const ValidatedParameters& parameters, DecisionMemory& memory) {
   // Made in place: copying what was just written in smaller pieces takes the processor longer than deciding
   // it.
-  FrameDecision decision{.ruleFiring = {},
-                         .occlusionResolution = {},
+  FrameDecision decision{.occlusionResolution = {},
                          .motion = decideMotion(input.state, parameters->motion, memory.motion, input.drawn),
                          .weather = weather,
                          .policy = {}};
-  std::optional<TotalMembership> total = decideTotal(input, parameters, decision);
+  std::optional<double> total = decideTotal(input, parameters, decision);
   if (const CompiledPolicy* policy = parameters.policy()) {
-    decision.policy = followPolicy(*policy, input, parameters, total ? total->total : 0, memory);
-    if (total && decision.policy.moves(Lever::occlusion)) *total = {decision.policy[Lever::occlusion], true};
+    decision.policy = followPolicy(*policy, input, parameters, total, decision, memory);
+    if (total && decision.policy.moves(Lever::occlusion)) total = decision.policy[Lever::occlusion];
   }
   if (total) decideScheme(*total, parameters, memory, decision);
   return decision;
@@ -189,7 +176,7 @@ LeverChain leversOf(const FrameDecision& d, const TuningParameters& parameters) 
   std::optional<OcclusionResolution> unruled = d.occlusionResolution;
   if (d.policy.moves(Lever::occlusion)) {
     const BandList& bands = parameters.scheme.bands;
-    unruled = resolutionOf(bands, bandOf(bands, totalOf(d, parameters).total));
+    unruled = resolutionOf(bands, bandOf(bands, totalOf(d, parameters)));
   }
   LeverChain chain;
   chain.preset = presetLevers(parameters, unruled);
@@ -215,12 +202,11 @@ std::string explain(const FrameDecision& d, const ValidatedParameters& parameter
     return outcomeText(d) + ": the height above ground is not known";
 
   std::string text =
-      outcomeText(d) + formatted(": %.0f ft%s gives %.3f, pitch %.2f deg gives %.3f, %s %.3f", d.altitudeFt,
-                                 aboveGround ? " above ground" : "", d.altitudeMembership, d.pitchDeg,
-                                 d.pitchMembership, combinationText(parameters->scheme.combination),
-                                 d.totalMembership);
-  if (parameters->scheme.combination == Combination::rules && d.reason != SchemeReason::no_rule_fires)
-    text += " (" + firingText(parameters->scheme.rules, d.ruleFiring) + ")";
+      outcomeText(d) +
+      formatted(": %.0f ft%s gives %.3f, pitch %.2f deg gives %.3f, %s %.3f", d.altitudeFt,
+                aboveGround ? " above ground" : "", d.altitudeMembership, d.pitchDeg, d.pitchMembership,
+                d.policy.moves(Lever::occlusion) ? "policy" : combinationText(parameters->scheme.combination),
+                d.totalMembership);
   const std::string band = bandText(parameters->scheme.bands, d.band);
   switch (d.reason) {
     case SchemeReason::below_first_band:
@@ -232,9 +218,6 @@ std::string explain(const FrameDecision& d, const ValidatedParameters& parameter
     case SchemeReason::held_by_hysteresis:
       text += formatted(", held %s%s by hysteresis %.4g", d.band >= 0 ? "in " : "", band.c_str(),
                         parameters->scheme.hysteresis.value());
-      break;
-    case SchemeReason::no_rule_fires:
-      text += ", no rule fires";
       break;
     case SchemeReason::invalid_input:
     case SchemeReason::altitude_unknown:

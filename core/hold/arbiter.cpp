@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <optional>
 
 namespace trimtab {
@@ -86,7 +85,7 @@ Choice choiceOf(const HoldGiven& given, const HoldParameters& p) {
     }
     e.value[i] = errorPx;
     e.triangles[i] = trianglesAt(given.triangles, asked.errorPx, errorPx);
-    e.loss[i] = p.lossError.value() * errorLoss(errorPx, std::max(asked.errorPx, given.unseenPx));
+    e.loss[i] = p.lossError.value() * errorLoss(errorPx, asked.errorPx);
   }
   c.scale.addSteps(asked.renderScale, p.renderScaleMinimum.value(), kScaleStep, [&](double scale) {
     return p.lossRenderScale.value() * scaleLoss(scale, asked.renderScale);
@@ -208,7 +207,7 @@ double limitOf(double budgetMs, double bandMs, const HoldParameters& p) {
 
 bool isNumber(const HoldGiven& g) {
   double sum = g.asked.errorPx + g.asked.renderScale + g.asked.particleShare + g.asked.blurShare +
-               g.unseenPx + g.particles + g.imageMpx + g.groundMpx;
+               g.particles + g.imageMpx + g.groundMpx;
   for (const double triangles : g.triangles) sum += triangles;
   return std::isfinite(sum + predict(g.cost, {1, 1, 1, 1, true}).total());
 }
@@ -293,15 +292,6 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
   return d;
 }
 
-double smearPx(double degreesPerS, double exposureMs, double pixelsPerRadian) {
-  return degreesPerS * std::numbers::pi / 180 * exposureMs * 1e-3 * pixelsPerRadian;
-}
-
-double errorInMotion(double errorPx, double degreesPerS, double exposureMs, double pixelsPerRadian) {
-  const double smear = smearPx(degreesPerS, exposureMs, pixelsPerRadian);
-  return smear > errorPx && std::isfinite(smear) ? std::sqrt(errorPx * smear) : errorPx;
-}
-
 HoldGains gainsOf(const HoldGiven& given, const HoldDecision& d, const HoldParameters& p) {
   if (d.held == d.asked || !isNumber(given)) return {};
   const auto msWith = [&](const HeldLevers& levers) {
@@ -313,9 +303,8 @@ HoldGains gainsOf(const HoldGiven& given, const HoldDecision& d, const HoldParam
     levers.*lever = d.held.*lever;
     return msWith(d.asked) - msWith(levers);
   };
-  const double freePx = std::max(d.asked.errorPx, given.unseenPx);
   HoldGains gains{
-      {alone(&HeldLevers::errorPx), p.lossError.value() * errorLoss(d.held.errorPx, freePx)},
+      {alone(&HeldLevers::errorPx), p.lossError.value() * errorLoss(d.held.errorPx, d.asked.errorPx)},
       {alone(&HeldLevers::renderScale),
        p.lossRenderScale.value() * scaleLoss(d.held.renderScale, d.asked.renderScale)},
       {alone(&HeldLevers::particleShare),

@@ -44,8 +44,8 @@ TriangleLadder FrameHold::count(const FrameRequest& request, const LoadView& vie
   if (!form) return ladder;
   const double askedPx = request.levers.policy.errorPx;
   if (*form == TerrainForm::static_trees) {
-    ladder = countTriangles(*index_->trees, treeErrorOf(request.staticLod.error), view, staticLodRuleOf(request),
-                            askedPx, stack_);
+    ladder = countTriangles(*index_->trees, treeErrorOf(request.staticLod.error), view,
+                            staticLodRuleOf(request), askedPx, stack_);
     // By that rule a distance follows from the error of a node alone, so the lever moves nothing.
     if (request.staticLod.rule == StaticDistanceRule::factor) ladder.fill(ladder.front());
     return ladder;
@@ -62,13 +62,11 @@ double FrameHold::groundMpx(const FrameRequest& request, const LoadView& view, c
          shareBelowHorizon(view, up, eye.position.height.value());
 }
 
-HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye> coming, double budgetMs,
-                          double unseenPx) {
+HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye> coming, double budgetMs) {
   HoldGiven g;
   Prediction prediction;
   g.timeS = request.time;
   g.budgetMs = budgetMs;
-  g.unseenPx = unseenPx;
   g.meshesLeft = static_cast<double>(meshesLeft_);
   const FrameLevers& asked = request.levers.policy;
   g.asked = {asked.errorPx, asked.renderScale, asked.particleShare, 1};

@@ -95,8 +95,6 @@ std::string_view toText(SchemeReason reason) {
       return "in_band";
     case SchemeReason::held_by_hysteresis:
       return "held_by_hysteresis";
-    case SchemeReason::no_rule_fires:
-      return "no_rule_fires";
     case SchemeReason::invalid_input:
       return "invalid_input";
     case SchemeReason::altitude_unknown:

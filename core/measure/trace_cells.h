@@ -7,7 +7,6 @@
 #include <system_error>
 #include <type_traits>
 
-#include "trimtab/frame/rule_firing.h"
 #include "trimtab/units/quantity.h"
 
 /// One cell of a trace as text and back. Numbers are written in the shortest form that reads back to the same
@@ -33,14 +32,6 @@ template <class E>
 requires std::is_enum_v<E>
 void print(std::string& text, E name) {
   text += toText(name);
-}
-
-/// "0.5;0.25"
-inline void print(std::string& text, const RuleFiring& firing) {
-  for (std::size_t i = 0; i < firing.count; ++i) {
-    if (i > 0) text += ';';
-    print(text, firing.mu[i]);
-  }
 }
 
 /// A fixed count of numbers, as "2;2;2;4;5.6".
@@ -77,16 +68,6 @@ bool parse(std::string_view cell, Quantity<U>& quantity, Expected& expected) {
   quantity = Quantity<U>{number};
   return true;
 }
-inline bool parse(std::string_view cell, RuleFiring& firing, Expected& expected) {
-  for (firing.count = 0; firing.count < RuleFiring{}.mu.size();) {
-    const std::size_t end = cell.find(';');
-    if (!parse(cell.substr(0, end), firing.mu[firing.count++], expected)) break;
-    if (end == std::string_view::npos) return true;
-    cell.remove_prefix(end + 1);
-  }
-  expected.what = "up to " + std::to_string(RuleList::kCapacity) + " numbers with ; between";
-  return false;
-}
 template <std::size_t N>
 bool parse(std::string_view cell, std::array<double, N>& numbers, Expected& expected) {
   for (std::size_t i = 0; i < N; ++i) {
@@ -100,9 +81,13 @@ bool parse(std::string_view cell, std::array<double, N>& numbers, Expected& expe
   }
   return true;
 }
+/// The reason of former traces whose rule base did not fire: the total was 0.
+constexpr std::string_view kFormerReason = "no_rule_fires";
 template <class E>
 requires std::is_enum_v<E>
 bool parse(std::string_view cell, E& name, Expected& expected) {
+  if constexpr (std::is_same_v<E, SchemeReason>)
+    if (cell == kFormerReason) cell = "below_first_band";
   for (int i = 0;; ++i) {
     const std::string_view candidate = toText(static_cast<E>(i));
     if (candidate.empty()) break;

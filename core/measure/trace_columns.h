@@ -45,7 +45,6 @@ struct Flat {
   std::optional<int> severity;
   std::optional<Metres> layerVisibility;
   std::optional<int> depthMapWidth, depthMapHeight;
-  std::array<std::optional<double>, 4> formerFiring;
   FlatPolicy policy;
   FlatEye drawnEye;
   FlatChain chain;
@@ -239,12 +238,6 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("altitude_membership", Cell::required, d.altitudeMembership);
   visit("pitch_membership", Cell::required, d.pitchMembership);
   visit("total_membership", Cell::required, d.totalMembership);
-  visit("rule_firing", Cell::optional, d.ruleFiring);
-  // Columns of traces from before the rule base could be edited: it had these four.
-  visit("rule_low_down", Cell::former, f.formerFiring[0]);
-  visit("rule_low_up", Cell::former, f.formerFiring[1]);
-  visit("rule_high_down", Cell::former, f.formerFiring[2]);
-  visit("rule_high_up", Cell::former, f.formerFiring[3]);
   visit("scheme", Cell::required, d.scheme);
   visit("band", Cell::required, d.band);
   visit("depth_map_width_px", Cell::optional, f.depthMapWidth);
@@ -382,10 +375,6 @@ inline TraceRow unflatten(Flat& f) {
     state.weather = HostWeather{*f.precipitation, f.severity.value_or(0), f.layerVisibility};
   if (f.depthMapWidth && f.depthMapHeight)
     f.row.decision.occlusionResolution = OcclusionResolution{*f.depthMapWidth, *f.depthMapHeight};
-  RuleFiring& firing = f.row.decision.ruleFiring;
-  if (firing.count == 0)
-    for (const std::optional<double>& mu : f.formerFiring)
-      if (mu) firing.mu[firing.count++] = *mu;
   unflattenPolicy(f.policy, f.row);
   if (f.hasFrame) f.row.frame = f.frame;
   if (f.hasHold) f.row.hold = f.hold;

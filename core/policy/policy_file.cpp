@@ -19,6 +19,13 @@ using fuzzy_system::System;
 constexpr std::array<std::string_view, kTermShapes.size()> kShapes{
     "Discrete", "Triangle", "Trapezoid", "Ramp", "Gaussian", "Bell", "Sigmoid"};
 
+/// The output of rule files that were written for the former rule base of the culling scheme: the total,
+/// which the lever occlusion sets now, and 0 where no rule fired.
+constexpr std::string_view kFormerOutput = "total";
+std::optional<Lever> leverOfOutput(std::string_view name) {
+  return name == kFormerOutput ? Lever::occlusion : leverNamed(name);
+}
+
 struct Norms {
   std::string_view conjunction, disjunction;
 };
@@ -132,8 +139,8 @@ class Translation {
   }
 
   void checkOutput(const fuzzy_system::Variable& output) {
-    if (!leverNamed(output.name)) refuse(output.where, "output", "the key of a lever", output.name);
-    if (!std::isnan(output.unfired))
+    if (!leverOfOutput(output.name)) refuse(output.where, "output", "the key of a lever", output.name);
+    if (!std::isnan(output.unfired) && !(output.name == kFormerOutput && output.unfired == 0))
       refuse(output.unfiredWhere, "default", "nan: a lever that no rule sets is neutral",
              numberText(output.unfired));
     for (const fuzzy_system::Term& term : output.terms)
@@ -166,7 +173,7 @@ class Translation {
     PolicyRule made{rule.condition, {}, rule.weight, rule.enabled, rule.reason};
     for (const fuzzy_system::Conclusion& conclusion : rule.conclusions) {
       const auto& output = system_.outputs[conclusion.output];
-      made.settings.push_back({*leverNamed(output.name), output.terms[conclusion.term].numbers[0]});
+      made.settings.push_back({*leverOfOutput(output.name), output.terms[conclusion.term].numbers[0]});
     }
     policy_.rules.push_back(std::move(made));
   }

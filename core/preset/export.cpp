@@ -107,8 +107,7 @@ class PropertyList {
 void addProperty(PropertyList& list, const ParameterRow& row, const ParameterValue& value) {
   const std::size_t dot = row.key.rfind('.');
   const std::string name(row.key.substr(dot + 1));
-  if (row.kind == Kind::curve || row.kind == Kind::bands || row.kind == Kind::rules ||
-      row.kind == Kind::lines)
+  if (row.kind == Kind::curve || row.kind == Kind::bands || row.kind == Kind::lines)
     list.enter(row.key);
   else
     list.enter(row.key.substr(0, dot));
@@ -129,14 +128,6 @@ void addProperty(PropertyList& list, const ParameterRow& row, const ParameterVal
                      {{"low", "double", numberText(b.low)},
                       {"width", "int", std::to_string(b.widthPx)},
                       {"height", "int", std::to_string(b.heightPx)}});
-      return;
-    case Kind::rules:
-      for (std::size_t n = 0; const FuzzyRule& r : std::get<RuleList>(value).span())
-        list.indexed("rule", n++,
-                     {{"altitude", "string", std::string(nameOf(r.altitude))},
-                      {"pitch", "string", std::string(nameOf(r.pitch))},
-                      {"weight", "double", numberText(r.weight)},
-                      {"output", "double", numberText(r.output)}});
       return;
     case Kind::lines:
       for (std::size_t n = 0; const std::string& text : std::get<TextLines>(value).line)

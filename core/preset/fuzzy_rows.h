@@ -128,20 +128,6 @@ inline constexpr std::array kFuzzyRows{
          .source = "A, B: Table 2",
          .hard = {16, 8192},
          .usual = {64, 2048},
-         .step = 16}),
-    row<&TuningParameters::scheme, &SchemeParameters::rules>(
-        {.key = "fuzzy.rules",
-         .label = "Rule base",
-         .help =
-             "Rules of Eq. 2: conditions, weight and output. Low is the altitude membership and high its "
-             "complement, nose down the pitch membership and nose up its complement. A rule fires with the "
-             "smaller of its conditions; the total is the average of the outputs, weighted by firing times "
-             "weight, and 0 where nothing fires. A weight of 0 leaves its rule out. Used by the combination "
-             "of that name.",
-         .source = "A, B: Eq. 2",
-         .hard = {0, 1000},
-         .usual = {0, 10},
-         .step = 0.1,
-         .decimals = 2})};
+         .step = 16})};
 
 }  // namespace trimtab::table

@@ -118,17 +118,6 @@ inline constexpr std::array kHoldRows{
          .hard = {0, 1},
          .usual = {0, 0.2},
          .step = 0.001,
-         .decimals = 4}),
-    row<&TuningParameters::hold, &HoldParameters::exposure>(
-        {.key = "hold.exposure_ms",
-         .label = "Exposure",
-         .help =
-             "How long a display holds an image, such as 16 ms. While the line of sight turns, an error that "
-             "is small beside the smear of that time then counts as no loss. 0 counts it in full: measured "
-             "with image and reference smeared alike, a sweep hides little of it.",
-         .hard = {0, 100},
-         .usual = {0, 40},
-         .step = 1,
-         .decimals = 1})};
+         .decimals = 4})};
 
 }  // namespace trimtab::table

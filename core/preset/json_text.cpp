@@ -71,22 +71,6 @@ void skipValue(std::string_view text, std::size_t& at) {
   }
 }
 
-/// Elements of an array's text.
-std::vector<std::string_view> elements(std::string_view array) {
-  std::vector<std::string_view> found;
-  if (array.empty() || array.front() != '[') return found;
-  for (std::size_t at = 1; at < array.size();) {
-    skipBlanks(array, at);
-    if (at >= array.size() || array[at] == ']') break;
-    const std::size_t begin = at;
-    skipValue(array, at);
-    found.push_back(array.substr(begin, at - begin));
-    skipBlanks(array, at);
-    if (at < array.size() && array[at] == ',') ++at;
-  }
-  return found;
-}
-
 std::optional<double> readFinite(std::string_view value) {
   const std::optional<double> number = readNumber(value);
   return number && std::isfinite(*number) ? number : std::nullopt;
@@ -144,62 +128,6 @@ Result<ParameterValue> readBands(std::string_view value) {
     bands.band[bands.size++] = {(*band)[0], static_cast<int>((*band)[1]), static_cast<int>((*band)[2])};
   }
   return ParameterValue{bands};
-}
-
-/// The condition of that name; none where `text` is no such string.
-template <class Condition>
-std::optional<Condition> readCondition(const std::array<std::string_view, 3>& names, std::string_view text) {
-  const auto name = readString(text);
-  const auto at = name ? std::find(names.begin(), names.end(), *name) : names.end();
-  if (at == names.end()) return std::nullopt;
-  return static_cast<Condition>(at - names.begin());
-}
-
-/// A condition that is left out is `any`, so that files stay readable when a version adds an input.
-std::optional<FuzzyRule> readRuleObject(std::string_view value) {
-  FuzzyRule rule;
-  std::vector<std::string> seen;
-  for (const Member& member : members(value, value)) {
-    if (std::find(seen.begin(), seen.end(), member.key) != seen.end()) return std::nullopt;
-    seen.push_back(member.key);
-    if (member.key == "altitude") {
-      const auto condition = readCondition<AltitudeCondition>(kAltitudeConditions, member.value);
-      if (!condition) return std::nullopt;
-      rule.altitude = *condition;
-    } else if (member.key == "pitch") {
-      const auto condition = readCondition<PitchCondition>(kPitchConditions, member.value);
-      if (!condition) return std::nullopt;
-      rule.pitch = *condition;
-    } else if (member.key == "weight" || member.key == "output") {
-      const auto number = readFinite(member.value);
-      if (!number) return std::nullopt;
-      (member.key == "weight" ? rule.weight : rule.output) = *number;
-    } else {
-      return std::nullopt;
-    }
-  }
-  const auto has = [&seen](const char* key) {
-    return std::find(seen.begin(), seen.end(), key) != seen.end();
-  };
-  if (!has("weight") || !has("output")) return std::nullopt;
-  return rule;
-}
-
-Result<ParameterValue> readRules(std::string_view value) {
-  const std::string expected =
-      "a rule {\"altitude\": \"low\", \"high\" or \"any\", \"pitch\": \"down\", "
-      "\"up\" or \"any\", \"weight\": number, \"output\": number}";
-  if (value.empty() || value.front() != '[') return unlike("a list of rules", value);
-  const auto parts = elements(value);
-  if (parts.size() > RuleList::kCapacity)
-    return unlike("at most " + std::to_string(RuleList::kCapacity) + " rules", std::to_string(parts.size()));
-  RuleList rules;
-  for (const std::string_view part : parts) {
-    const auto rule = isObject(part) ? readRuleObject(part) : std::nullopt;
-    if (!rule) return unlike(expected + " as rule " + std::to_string(rules.size + 1), part);
-    rules.rule[rules.size++] = *rule;
-  }
-  return ParameterValue{rules};
 }
 
 Result<ParameterValue> readLines(std::string_view value) {
@@ -264,6 +192,21 @@ std::vector<Member> members(std::string_view object, std::string_view whole) {
   return found;
 }
 
+std::vector<std::string_view> elements(std::string_view array) {
+  std::vector<std::string_view> found;
+  if (array.empty() || array.front() != '[') return found;
+  for (std::size_t at = 1; at < array.size();) {
+    skipBlanks(array, at);
+    if (at >= array.size() || array[at] == ']') break;
+    const std::size_t begin = at;
+    skipValue(array, at);
+    found.push_back(array.substr(begin, at - begin));
+    skipBlanks(array, at);
+    if (at < array.size() && array[at] == ',') ++at;
+  }
+  return found;
+}
+
 bool isObject(std::string_view value) {
   return !value.empty() && value.front() == '{';
 }
@@ -284,9 +227,6 @@ std::string valueText(const ParameterRow& row, const ParameterValue& value) {
   const auto append = [&text](const std::string& tuple) {
     text += (text.empty() ? "[" : ", [") + tuple + "]";
   };
-  const auto member = [](const char* key, std::string_view name) {
-    return std::string("\"") + key + "\": \"" + std::string(name) + "\", ";
-  };
   switch (row.kind) {
     case Kind::scalar:
     case Kind::flag:
@@ -300,12 +240,6 @@ std::string valueText(const ParameterRow& row, const ParameterValue& value) {
     case Kind::bands:
       for (const Band& b : std::get<BandList>(value).span())
         append(numberText(b.low) + ", " + std::to_string(b.widthPx) + ", " + std::to_string(b.heightPx));
-      break;
-    case Kind::rules:
-      for (const FuzzyRule& r : std::get<RuleList>(value).span())
-        text += (text.empty() ? "{" : ", {") + member("altitude", nameOf(r.altitude)) +
-                member("pitch", nameOf(r.pitch)) + "\"weight\": " + numberText(r.weight) +
-                ", \"output\": " + numberText(r.output) + "}";
       break;
     case Kind::lines:
       for (const std::string& line : std::get<TextLines>(value).line)
@@ -335,8 +269,6 @@ Result<ParameterValue> readValue(const ParameterRow& row, std::string_view value
       return readCurve(value);
     case Kind::bands:
       return readBands(value);
-    case Kind::rules:
-      return readRules(value);
     case Kind::lines:
       return readLines(value);
   }

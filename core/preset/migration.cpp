@@ -1,8 +1,8 @@
 #include "migration.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "former_rules.h"
 #include "trimtab/preset/json_text.h"
 #include "trimtab/units/number.h"
 
@@ -31,67 +31,13 @@ void fromVersion1(const TuningParameters&, std::vector<RawParameter>& parameters
   }
 }
 
-/// What a key of version 2 said: weight or output of the rule with these two conditions.
-struct FormerRule {
-  std::string_view prefix;
-  AltitudeCondition altitude;
-  PitchCondition pitch;
-};
-constexpr FormerRule kFormerRules[] = {
-    {"fuzzy.rules.low_down_", AltitudeCondition::low, PitchCondition::nose_down},
-    {"fuzzy.rules.low_up_", AltitudeCondition::low, PitchCondition::nose_up},
-    {"fuzzy.rules.high_down_", AltitudeCondition::high, PitchCondition::nose_down},
-    {"fuzzy.rules.high_up_", AltitudeCondition::high, PitchCondition::nose_up}};
-
-/// The rule with these conditions; added with what version 2 shipped where the base has lost it. Null where
-/// the list is full.
-FuzzyRule* ruleLike(const FormerRule& former, RuleList& rules) {
-  const auto is = [&former](const FuzzyRule& rule) {
-    return rule.altitude == former.altitude && rule.pitch == former.pitch;
-  };
-  const auto end = rules.rule.begin() + static_cast<std::ptrdiff_t>(rules.size);
-  if (const auto at = std::find_if(rules.rule.begin(), end, is); at != end) return &*at;
-  if (rules.size == RuleList::kCapacity) return nullptr;
-  return &(rules.rule[rules.size++] = *std::find_if(kRuleBase.rule.begin(), kRuleBase.rule.end(), is));
-}
-
-/// Version 2 had a fixed rule base: a key for the weight and one for the output of each of four rules. What a
-/// file leaves out, its base decides.
-void fromVersion2(const TuningParameters& base, std::vector<RawParameter>& parameters, FindingList& notes) {
-  RuleList rules = base.scheme.rules;
-  std::vector<RawParameter> kept;
-  std::string where;
-  for (RawParameter& p : parameters) {
-    const auto former = std::find_if(std::begin(kFormerRules), std::end(kFormerRules),
-                                     [&p](const FormerRule& f) { return p.key.starts_with(f.prefix); });
-    const bool isFormer = former != std::end(kFormerRules);
-    const std::string_view last = isFormer ? std::string_view(p.key).substr(former->prefix.size()) : "";
-    if (last != "weight" && last != "output") {
-      kept.push_back(std::move(p));
-      continue;
-    }
-    const auto number = readNumber(p.value);
-    FuzzyRule* const rule = ruleLike(*former, rules);
-    if (!number || !std::isfinite(*number) || !rule) {
-      notes.add({Severity::error, p.where, p.key, rule ? "a number" : "room for its rule in the base's list",
-                 rule ? p.value.substr(0, 60) : std::to_string(rules.size) + " other rules"});
-      continue;
-    }
-    (last == "weight" ? rule->weight : rule->output) = *number;
-    if (where.empty()) where = p.where;
-    notes.add({Severity::note, p.where, p.key, "the key fuzzy.rules",
-               "a part of it by a former name, taken as rule " + conditionsText(*rule, " and ")});
-  }
-  if (!where.empty()) kept.push_back({"fuzzy.rules", json::valueText(*findRow("fuzzy.rules"), rules), where});
-  parameters = std::move(kept);
-}
-
 /// A value of a choice that no version reads any more, and what replaces it. Versions up to 3 wrote such
 /// values, and a file may still have them: they are replaced whatever the file's version.
 struct WithdrawnChoice {
   std::string_view key, value, replacement;
 };
-constexpr WithdrawnChoice kWithdrawnChoices[] = {{"culling.occlusion", "read_back", "depth_map"}};
+constexpr WithdrawnChoice kWithdrawnChoices[] = {{"culling.occlusion", "read_back", "depth_map"},
+                                                 {"culling.occlusion", "horizon_and_map", "auto"}};
 
 void replaceWithdrawn(std::vector<RawParameter>& parameters, FindingList& notes) {
   for (RawParameter& p : parameters)
@@ -103,6 +49,22 @@ void replaceWithdrawn(std::vector<RawParameter>& parameters, FindingList& notes)
                        " is used"});
       }
 }
+
+/// A parameter that no version reads any more: it is dropped, and a note says so.
+constexpr std::string_view kWithdrawnKeys[] = {"hold.exposure_ms"};
+
+void dropWithdrawn(std::vector<RawParameter>& parameters, FindingList& notes) {
+  std::erase_if(parameters, [&notes](const RawParameter& p) {
+    if (std::find(std::begin(kWithdrawnKeys), std::end(kWithdrawnKeys), p.key) == std::end(kWithdrawnKeys))
+      return false;
+    notes.add({Severity::note, p.where, p.key, "a parameter of this version",
+               p.value.substr(0, 60) + ", of a parameter that was withdrawn; it has no effect"});
+    return true;
+  });
+}
+
+/// Version 2 had keys for the four rules of a fixed rule base, which replaceFormerRules() reads.
+void fromVersion2(const TuningParameters&, std::vector<RawParameter>&, FindingList&) {}
 
 /// migrations[i] brings version i + 1 to version i + 2.
 constexpr void (*kMigrations[])(const TuningParameters&, std::vector<RawParameter>&, FindingList&) = {
@@ -133,6 +95,8 @@ void migrate(int fromVersion, const TuningParameters& base, std::vector<RawParam
   for (int version = fromVersion; version < kPresetVersion; ++version)
     kMigrations[version - 1](base, parameters, notes);
   replaceWithdrawn(parameters, notes);
+  dropWithdrawn(parameters, notes);
+  replaceFormerRules(base, parameters, notes);
 }
 
 }  // namespace trimtab

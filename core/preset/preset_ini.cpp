@@ -37,8 +37,10 @@ bool looksLikeIni(std::string_view text) {
 Result<std::string> jsonOf(const std::string& key, std::string_view plain) {
   if (const ParameterRow* const row = findRow(key)) {
     const Result<ParameterValue> value = parseValue(*row, plain);
-    if (!value) return value.findings();
-    return json::valueText(*row, *value);
+    if (value) return json::valueText(*row, *value);
+    // A choice of a former version may be one that migration replaces.
+    if (row->kind == Kind::choice) return json::stringText(trimmed(plain));
+    return value.findings();
   }
   const bool isText = std::find(std::begin(kTextKeys), std::end(kTextKeys), key) != std::end(kTextKeys);
   // What reads as a number but is none in JSON, as "8." and "nan", is kept as a text.

@@ -77,39 +77,12 @@ std::string describe(const ParameterRow& row) {
                            numberText(BandList::kTop) + ", sizes " + rangeText(row.hard, row.unit));
       item("usual", "sizes " + rangeText(row.usual, row.unit));
       break;
-    case Kind::rules:
-      item("accepted",
-           "1 to " + std::to_string(RuleList::kCapacity) +
-               " rules `conditions*weight=output`, conditions `low` or `high`, `down` or `up`, joined "
-               "by `&`, or `any`; weights " +
-               rangeText(row.hard, row.unit) + ", outputs " + rangeText({0, BandList::kTop}, ""));
-      item("usual", "weights " + rangeText(row.usual, row.unit));
-      break;
     case Kind::lines:
       item("accepted", "lines of text; on one line ` | ` stands between them");
       break;
   }
   item("takes effect with", std::string(effectText(row.effect)));
   if (!row.source.empty()) item("source", std::string(row.source));
-  return text + "\n";
-}
-
-/// The rules of Eq. (2) that ship.
-std::string ruleBase() {
-  std::string text =
-      "## The rule base\n\nUsed when `fuzzy.combination` is `rules`. *Low* is the altitude membership, "
-      "*high* its complement to 1; *nose "
-      "down* is the\npitch membership, *nose up* its complement. A rule fires with the smaller of its "
-      "conditions, and the total is the average of "
-      "the\noutputs, weighted by firing times weight. When nothing fires the total is 0. What ships in "
-      "`fuzzy.rules`:\n\n"
-      "| Altitude | Pitch | Weight | Output |\n|---|---|---|---|\n";
-  for (const FuzzyRule& rule : TuningParameters{}.scheme.rules.span()) {
-    const std::string pitch(nameOf(rule.pitch));
-    text += "| " + std::string(nameOf(rule.altitude)) + " | " +
-            (rule.pitch == PitchCondition::any ? pitch : "nose " + pitch) + " | " + numberText(rule.weight) +
-            " | " + numberText(rule.output) + " |\n";
-  }
   return text + "\n";
 }
 
@@ -170,7 +143,7 @@ std::string parameterReference() {
     }
     text += describe(row);
   }
-  return text + ruleBase() + rulesBetweenParameters() + sources();
+  return text + rulesBetweenParameters() + sources();
 }
 
 }  // namespace trimtab

@@ -43,9 +43,8 @@ static_assert(checkCurve(kDefaults.pitch.curve, hardRange("fuzzy.pitch.curve_deg
 static_assert(checkBands(kDefaults.scheme.bands, hardRange("fuzzy.bands_px")).flaw == BandFlaw::none);
 static_assert(checkCurve(kDefaults.weather.severityDensity, hardRange("weather.severity_density")).flaw ==
               CurveFlaw::none);
-static_assert(checkRules(kDefaults.scheme.rules, hardRange("fuzzy.rules")).flaw == RuleFlaw::none);
 static_assert(hysteresisLeavesBands(kDefaults) && hysteresisLeavesFrustum(kDefaults));
-static_assert(maximumCoversCurve(kDefaults) && someRuleCounts(kDefaults) && someFieldOfViewIsLeft(kDefaults));
+static_assert(maximumCoversCurve(kDefaults) && someFieldOfViewIsLeft(kDefaults));
 
 /// Indices of rows by rising key.
 constexpr auto kByKey = [] {

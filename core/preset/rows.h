@@ -72,11 +72,6 @@ struct FieldKind<BandList> {
   static constexpr Kind kind = Kind::bands;
 };
 template <>
-struct FieldKind<RuleList> {
-  using Unit = unit::Ratio;
-  static constexpr Kind kind = Kind::rules;
-};
-template <>
 struct FieldKind<TextLines> {
   using Unit = unit::Ratio;
   static constexpr Kind kind = Kind::lines;
@@ -169,7 +164,7 @@ consteval CheckedRow row(const RowText& text) {
   if (text.key.empty() || text.label.empty() || text.help.empty()) throw "key, label and help are needed";
   if (Unit::suffix.empty() ? endsInSomeUnit(text.key) : !text.key.ends_with(Unit::suffix))
     throw "the key's suffix is not the unit of the field's type";
-  if (kind == Kind::scalar || kind == Kind::curve || kind == Kind::bands || kind == Kind::rules) {
+  if (kind == Kind::scalar || kind == Kind::curve || kind == Kind::bands) {
     if (!(text.hard.low < text.hard.high) || !(text.usual.low < text.usual.high) || !(text.step > 0))
       throw "hard and usual need low < high, step > 0";
     if (text.usual.low < text.hard.low || text.usual.high > text.hard.high) throw "usual reaches beyond hard";
@@ -184,9 +179,6 @@ consteval CheckedRow row(const RowText& text) {
     for (const Band& b : field.span())
       if (!within(b.widthPx, text.usual) || !within(b.heightPx, text.usual))
         throw "a default size is outside the usual range";
-  if constexpr (kind == Kind::rules)
-    for (const FuzzyRule& r : field.span())
-      if (!within(r.weight, text.usual)) throw "a default weight is outside the usual range";
 
   ParameterRow r{.key = text.key,
                  .label = text.label,

@@ -59,17 +59,6 @@ Json valueSchema(const ParameterRow& row) {
       low["exclusiveMaximum"] = BandList::kTop;
       return tuples(1, BandList::kCapacity, {low, whole(row.hard), whole(row.hard)});
     }
-    case Kind::rules: {
-      Json rule;
-      rule["type"] = "object";
-      rule["properties"]["altitude"] = {{"enum", kAltitudeConditions}};
-      rule["properties"]["pitch"] = {{"enum", kPitchConditions}};
-      rule["properties"]["weight"] = number(row.hard);
-      rule["properties"]["output"] = number({0, BandList::kTop});
-      rule["required"] = {"weight", "output"};
-      rule["additionalProperties"] = false;
-      return {{"type", "array"}, {"minItems", 1}, {"maxItems", RuleList::kCapacity}, {"items", rule}};
-    }
     case Kind::lines:
       return {{"type", "array"}, {"items", {{"type", "string"}}}};
   }

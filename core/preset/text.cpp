@@ -129,21 +129,6 @@ Result<ParameterValue> parseBands(const ParameterRow& row, std::string_view text
   return ParameterValue{bands};
 }
 
-Result<ParameterValue> parseRules(const ParameterRow& row, std::string_view text) {
-  RuleList rules;
-  std::string_view rest = text;
-  for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
-    FuzzyRule rule;
-    if (!readRule(word, rule))
-      return refused(row, "rules as low|high&down|up*WEIGHT=OUTPUT (or any*WEIGHT=OUTPUT), blanks between",
-                     word);
-    if (rules.size == RuleList::kCapacity)
-      return refused(row, "at most " + std::to_string(RuleList::kCapacity) + " rules", text);
-    rules.rule[rules.size++] = rule;
-  }
-  return ParameterValue{rules};
-}
-
 /// Between lines is a | or the end of a line; \| and \\ are those characters. Empty lines mean nothing.
 ParameterValue parseLines(std::string_view text) {
   TextLines lines;
@@ -196,12 +181,6 @@ std::string toText(const ParameterRow& row, const ParameterValue& value) {
                 std::to_string(b.heightPx);
       return text;
     }
-    case Kind::rules: {
-      std::string text;
-      for (const FuzzyRule& r : std::get<RuleList>(value).span())
-        text += (text.empty() ? "" : " ") + ruleText(r);
-      return text;
-    }
     case Kind::lines: {
       std::string text;
       for (const std::string& line : std::get<TextLines>(value).line)
@@ -224,8 +203,6 @@ Result<ParameterValue> parseValue(const ParameterRow& row, std::string_view text
       return parseCurve(row, text);
     case Kind::bands:
       return parseBands(row, text);
-    case Kind::rules:
-      return parseRules(row, text);
     case Kind::lines:
       return parseLines(text);
   }

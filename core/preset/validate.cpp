@@ -127,39 +127,6 @@ void checkBandsRow(const ParameterRow& row, const BandList& bands, Findings& fin
           finding(Severity::warning, row, "usually " + rangeText(row.usual, row.unit), sizeText(band)));
 }
 
-void checkRulesRow(const ParameterRow& row, const RuleList& rules, Findings& findings) {
-  const RuleCheck check = checkRules(rules, row.hard);
-  const auto error = [&](std::string expected, std::string found) {
-    findings.push_back(finding(Severity::error, row, std::move(expected), std::move(found)));
-  };
-  const FuzzyRule r =
-      check.at < rules.size && check.at < RuleList::kCapacity ? rules.rule[check.at] : FuzzyRule{};
-  const auto inRule = [](std::size_t index, const FuzzyRule& rule) {
-    return " in rule " + numberOf(index) + " (" + conditionsText(rule, " and ") + ")";
-  };
-  switch (check.flaw) {
-    case RuleFlaw::none:
-      break;
-    case RuleFlaw::count:
-      return error("1 to " + std::to_string(RuleList::kCapacity) + " rules", std::to_string(rules.size));
-    case RuleFlaw::not_a_number:
-      return error("finite numbers", "weight " + numberText(r.weight) + ", output " + numberText(r.output) +
-                                         inRule(check.at, r));
-    case RuleFlaw::condition:
-      return error("conditions of this version", "another" + inRule(check.at, r));
-    case RuleFlaw::weight:
-      return error("weights of " + rangeText(row.hard, row.unit), numberText(r.weight) + inRule(check.at, r));
-    case RuleFlaw::output:
-      return error("outputs of " + rangeText({0, BandList::kTop}, ""),
-                   numberText(r.output) + inRule(check.at, r));
-  }
-  for (std::size_t i = 0; i < rules.size; ++i)
-    if (outside(rules.rule[i].weight, row.usual))
-      findings.push_back(finding(Severity::warning, row,
-                                 "usually weights of " + rangeText(row.usual, row.unit),
-                                 numberText(rules.rule[i].weight) + inRule(i, rules.rule[i])));
-}
-
 /// Exports write the lines as they are, so that nothing in one may break its file.
 void checkLinesRow(const ParameterRow& row, const TextLines& lines, Findings& findings) {
   constexpr std::size_t kMostLines = kMostPolicyRules, kLongestLine = 20000;
@@ -198,8 +165,6 @@ void checkRow(const ParameterRow& row, const TuningParameters& parameters, Findi
       return checkCurveRow(row, std::get<CurvePoints>(value), findings);
     case Kind::bands:
       return checkBandsRow(row, std::get<BandList>(value), findings);
-    case Kind::rules:
-      return checkRulesRow(row, std::get<RuleList>(value), findings);
     case Kind::lines:
       return checkLinesRow(row, std::get<TextLines>(value), findings);
   }
@@ -239,9 +204,6 @@ constexpr std::array kRules{
                   ", the altitude curve's last point";
          },
          [](const TuningParameters& p) { return withUnit(p.altitude.maximum.value(), "ft"); }},
-    Rule{"fuzzy.rules", "At least one of the rules' weights is above 0.", someRuleCounts,
-         [](const TuningParameters&) { return std::string("at least one rule's weight above 0"); },
-         [](const TuningParameters& p) { return "0 for all " + std::to_string(p.scheme.rules.size); }},
     Rule{
         "motion.left_fov_deg",
         "The fields of view to the left and right are not both 0, else every frame that moves would be fast.",

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trimtab/motion/line_of_sight.h"
-
 namespace trimtab {
 namespace {
 
@@ -15,7 +13,6 @@ constexpr double kLongestStepS = 0.25;
 void MotionAhead::push(double timeS, const ComingEye& eye) {
   const double seconds = timeS_ ? timeS - *timeS_ : 0;
   moves_ = seconds > 0 && seconds <= kLongestStepS;
-  rate_ = 0;
   if (moves_) {
     step_.position = {eye.position.latitude - last_.position.latitude,
                       wrapped180(eye.position.longitude - last_.position.longitude),
@@ -23,8 +20,9 @@ void MotionAhead::push(double timeS, const ComingEye& eye) {
     step_.attitude = {wrapped180(eye.attitude.heading - last_.attitude.heading),
                       eye.attitude.pitch - last_.attitude.pitch,
                       wrapped180(eye.attitude.roll - last_.attitude.roll)};
-    rate_ = degreesBetween(directionOf(last_.attitude), directionOf(eye.attitude)) / seconds;
-    if (!std::isfinite(rate_)) rate_ = 0, moves_ = false;
+    moves_ = std::isfinite(step_.position.latitude.value() + step_.position.longitude.value() +
+                           step_.position.height.value() + step_.attitude.heading.value() +
+                           step_.attitude.pitch.value() + step_.attitude.roll.value());
   }
   last_ = eye;
   if (std::isfinite(timeS))

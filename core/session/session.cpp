@@ -210,6 +210,15 @@ void Session::decideInput(DecisionMemory& memory) {
   const WeatherDecision weather = decideWeather(decided_.state, *parameters_, decided_.highestGround);
   trackSignals(decided_, weather);
   decision_ = decide(decided_, weather, parameters_, memory);
+  // The decision itself finds these two; traces and panels show them with the others.
+  const bool known =
+      decision_.reason != SchemeReason::invalid_input && decision_.reason != SchemeReason::altitude_unknown;
+  const auto complete = [&](SignalValues& values) {
+    values[Signal::altitude_membership] = known ? decision_.altitudeMembership : kNan;
+    values[Signal::pitch_membership] = known ? decision_.pitchMembership : kNan;
+  };
+  if (parameters_.policy() != nullptr) complete(decided_.signalValues);
+  if (signals_.watched) complete(*signals_.watched);
 }
 
 /// Decides `decided_`, with a row of the trace unless it is a free camera's.

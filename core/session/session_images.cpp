@@ -112,18 +112,16 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
   return request;
 }
 
-/// Runs the chain's last step: lowers the levers of a request until its predicted time fits the budget, if the
-/// preset asks for that. What was decided for a row of a trace is applied as it is.
+/// Runs the chain's last step: lowers the levers of a request until its predicted time fits the budget, if
+/// the preset asks for that. What was decided for a row of a trace is applied as it is.
 void Session::holdBudget(FrameRequest& request) {
   const HoldParameters& p = parameters_->hold;
   const std::optional<HoldDecision> replayed = std::exchange(budget_.replayed, std::nullopt);
   budget_.ahead.push(request.time, {request.eye, request.attitude});
   if (!p.enabled) return;
-  const double unseenPx = errorInMotion(request.levers.policy.errorPx, budget_.ahead.sightDegPerS(),
-                                        p.exposure.value(), pixelsPerRadian(request.view));
   const auto images = static_cast<std::size_t>(p.lookAhead.value());
   const HoldGiven given =
-      budget_.hold.look(request, budget_.ahead.coming(images), parameters_->measure.budget.value(), unseenPx);
+      budget_.hold.look(request, budget_.ahead.coming(images), parameters_->measure.budget.value());
   const HoldDecision decision =
       replayed ? budget_.hold.replay(given, *replayed, request) : budget_.hold.decide(given, p, request);
   if (keepRows_ && rows_.size() > completeRows_) rows_.back().hold = decision;

@@ -273,12 +273,6 @@ std::vector<ParameterValue> otherValues(const ParameterRow& row, const Parameter
       values.emplace_back(bands);
       break;
     }
-    case Kind::rules: {
-      RuleList rules = std::get<RuleList>(now);
-      rules.rule[0].output /= 2;
-      values.emplace_back(rules);
-      break;
-    }
     case Kind::lines: {
       TextLines lines = std::get<TextLines>(now);
       for (std::string& line : lines.line)
@@ -306,7 +300,6 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
       {"fuzzy.altitude", {{"fuzzy.altitude.reading", "equation_a"}}},
       {"fuzzy.altitude", {{"fuzzy.altitude.reference", "above_ground"}}},
       {"fuzzy.pitch", {{"fuzzy.pitch.reading", "rounded_step"}}},
-      {"fuzzy.rules", {{"fuzzy.combination", "rules"}}},
       {"view.", {{"view.render_size", "fixed"}, {"view.width_px", "160"}, {"view.height_px", "96"}}},
       {"view.", {{"view.source", "host"}}},
       {"motion.",
@@ -321,7 +314,7 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
       {"hold. measure.",
        {{"hold.enabled", "true"}, {"weather.source", "host"}},
        &ParameterEffects::holdBudget},
-      {"hold.error hold.exposure hold.loss_error",
+      {"hold.error hold.loss_error",
        {{"hold.enabled", "true"}, {"weather.source", "host"}, {"hold.loss_error", "0.001"}},
        &ParameterEffects::holdBudget},
       {"hold.caution",

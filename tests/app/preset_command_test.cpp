@@ -58,26 +58,6 @@ TEST(PresetCommand, reportsAsJsonAlone) {
   EXPECT_EQ(report.at("files")[1].at("findings")[0].at("key"), "view.near_m");
 }
 
-TEST(PresetCommand, givesRulesToFuzzyToolsAndTakesThemBack) {
-  for (const std::string ending : {"fll", "fis"}) {
-    const test::ScratchDir dir;
-    const std::string rules = (dir / ("r." + ending)).string(), made = (dir / "r.json").string();
-    const Ran exported =
-        preset("fuzzy export default -o " + rules +
-               " --set 'fuzzy.rules=low&down*1=2 high*0.5=0.25' --set fuzzy.combination=rules");
-    ASSERT_EQ(exported.exitCode, 0) << exported.err;
-    EXPECT_EQ(exported.err, "");
-    const Ran imported = preset("fuzzy import " + rules + " --base as-published -o " + made);
-    ASSERT_EQ(imported.exitCode, 0) << imported.err;
-    const auto loaded = loadPreset(made);
-    ASSERT_TRUE(loaded) << toString(loaded.findings());
-    EXPECT_EQ(toText(*findRow("fuzzy.rules"), loaded->parameters.scheme.rules), "low&down*1=2 high*0.5=0.25");
-    EXPECT_EQ(loaded->base, "as-published");
-    EXPECT_EQ(loaded->parameters.pitch.reading, PitchReading::linear) << "the curve of the file counts";
-    EXPECT_EQ(loaded->parameters.scheme.hysteresis.value(), 0);
-  }
-}
-
 const std::string kPolicy =
     " --set 'policy.terms=above_ground low = ramp 2000 500 | speed fast = sigmoid 300 0.05'"
     " --set 'policy.rules=if above_ground is low and speed is not fast then lod_scale = 2, render_scale = "
@@ -118,12 +98,11 @@ TEST(PresetCommand, refusesRuleFilesWithLineExpectedAndFound) {
   const test::ScratchDir dir;
   const std::string file = (dir / "r.fll").string();
   test::writeFile(file, "Engine: x\nInputVariable: altitude\n  enabled: maybe\n");
-  const Ran ran = preset("fuzzy import " + file + " -o -");
+  const Ran ran = preset("policy import " + file + " -o -");
   EXPECT_EQ(ran.exitCode, 1);
   EXPECT_EQ(ran.out, "");
   EXPECT_THAT(ran.err, HasSubstr("error: " + file + ":3: enabled: expected true, found maybe"));
-  EXPECT_EQ(preset("fuzzy import " + file + "x -o -").exitCode, 2) << "which language?";
-  EXPECT_EQ(preset("fuzzy export as-printed -o -  --format fll").exitCode, 1) << "no straight lines";
+  EXPECT_EQ(preset("policy import " + file + "x -o -").exitCode, 2) << "which language?";
 }
 
 TEST(PresetCommand, exportsWhatTheLibraryLoads) {

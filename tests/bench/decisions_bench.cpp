@@ -48,12 +48,6 @@ std::vector<FrameInput> inputsOf(const Flight& flight) {
   return inputs;
 }
 
-ValidatedParameters withCombination(Combination combination) {
-  TuningParameters p = *defaultParameters();
-  p.scheme.combination = combination;
-  return *validate(p);
-}
-
 /// Total membership and depth-map width, summed: equal sums show that two ways decide alike.
 struct Sums {
   double total = 0, width = 0;
@@ -147,38 +141,17 @@ void speed(Report& report, const std::vector<FrameInput>& inputs) {
             "ns", "reading altitude and pitch of the same states", copying / decisions * 1e9, "run"}));
 }
 
-void rulesAgainstFuzzylite(Report& report) {
-  if (!test::fuzzylitePresent()) return;
-  const test::Grid grid = test::gridFor(kAltitude, kPitch, report.quick() ? 101 : 401, 251);
-  std::vector<FrameInput> inputs;
-  for (const double altitude : grid.altitude) {
-    for (const double pitch : grid.pitch) {
-      FrameInput input;
-      input.state.position.height = Feet{altitude}.as<Metres>();
-      input.state.attitude.pitch = Degrees{pitch};
-      inputs.push_back(input);
-    }
-  }
-  const ValidatedParameters rules = withCombination(Combination::rules);
-  const double mine =
-      leastSeconds(5, [&] { keep(decideAll(inputs, rules)); }) / static_cast<double>(inputs.size());
-  const std::optional<double> peer = test::fuzzyliteNanoseconds(grid, 5);
-  report.add(
-      ratioAtMost(1, {"decisions.rules_time", "time of one decide() by the rules of Eq. (2)", mine * 1e9,
-                      "ns", "fuzzylite 6.0 evaluating the same rules, its own benchmark", peer, "run"}));
-}
-
 void exactness(Report& report, const std::vector<FrameInput>& inputs) {
   if (test::fuzzylitePresent()) {
     const test::Grid grid = test::gridFor(kAltitude, kPitch, 401, 251);
     std::string error;
-    const auto theirs = test::byFuzzylite(kAltitude, kPitch, kRuleBase, grid, error);
+    const auto theirs = test::byFuzzylite(kAltitude, kPitch, grid, error);
     double worst = theirs.size() == grid.size() ? 0 : NAN;
     std::size_t point = 0;
     if (theirs.size() == grid.size())
       for (const double a : grid.altitude)
         for (const double p : grid.pitch) {
-          const test::FuzzyResult ours = test::byUs(kAltitude, kPitch, kRuleBase, a, p);
+          const test::FuzzyResult ours = test::byUs(kAltitude, kPitch, a, p);
           for (std::size_t i = 0; i < ours.size(); ++i)
             worst = std::max(worst, std::abs(ours[i] - theirs[point][i]));
           ++point;
@@ -264,7 +237,6 @@ int main(int argc, char** argv) {
   }
   const std::vector<FrameInput> inputs = bench::inputsOf(*flight);
   if (report.wants("speed")) bench::speed(report, inputs);
-  if (report.wants("rules")) bench::rulesAgainstFuzzylite(report);
   if (report.wants("policy")) bench::policies(report);
   if (report.wants("trace")) bench::traceSpeed(report, inputs);
   if (report.wants("exactness")) bench::exactness(report, inputs);

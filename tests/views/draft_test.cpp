@@ -16,7 +16,7 @@ namespace {
 TEST(ViewKeys, areRowsOfTheTable) {
   for (const std::string_view key :
        {key::kAltitudeCurve, key::kAltitudeReading, key::kAltitudeReference, key::kPitchCurve,
-        key::kPitchReading, key::kBands, key::kHysteresis, key::kCombination, key::kRules, key::kBudget,
+        key::kPitchReading, key::kBands, key::kHysteresis, key::kCombination, key::kBudget,
         key::kPolicyEnabled, key::kPolicyNorm, key::kPolicyTerms, key::kPolicyRules})
     EXPECT_NE(findRow(key), nullptr) << key;
 }

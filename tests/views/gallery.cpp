@@ -21,10 +21,8 @@
 #include "views/editors/bands_editor.h"
 #include "views/editors/curve_plot.h"
 #include "views/editors/membership_editor.h"
-#include "views/editors/rules_editor.h"
 #include "views/panels/decision_panel.h"
 #include "views/panels/plots_panel.h"
-#include "views/panels/rules_panel.h"
 #include "views/plots/surface_plot.h"
 #include "views/plots/time_plot.h"
 #include "views/policy/policy_panel.h"
@@ -216,17 +214,11 @@ int main(int argc, char** argv) {
   shoot(parameters, {340, 560}, dir.filePath(QStringLiteral("narrow_parameters.png")));
   draft.resetAll();
 
-  draft.setValue("fuzzy.combination", ChoiceIndex{2});
-  RulesPanel rules(draft);
   SurfacePlot surface(draft);
   for (int i = 0; i < 6000; ++i) {
     const LiveFrame frame = flight.next(draft.active());
-    rules.showFrame(frame);
     surface.showFrame(frame);
   }
-  shoot(rules, {520, 480}, dir.filePath(QStringLiteral("rules.png")));
-  shoot(rules, {340, 420}, dir.filePath(QStringLiteral("narrow_rules.png")));
-  shoot(surface, {560, 420}, dir.filePath(QStringLiteral("surface_rules.png")));
   for (std::size_t combination = 0; combination < 2; ++combination) {
     draft.setValue("fuzzy.combination", ChoiceIndex{combination});
     hover(surface, {200, 150});
@@ -234,8 +226,6 @@ int main(int argc, char** argv) {
           dir.filePath(combination == 0 ? QStringLiteral("surface_sum.png")
                                         : QStringLiteral("surface_twice_minimum.png")));
   }
-  draft.setText("fuzzy.rules", "low&down*1=2 high*0.5=0 any*0.25=1.5 low&up*0=1");
-  shoot(rules, {520, 480}, dir.filePath(QStringLiteral("rules_not_used.png")));
   draft.resetAll();
 
   DecisionPanel decision(draft);

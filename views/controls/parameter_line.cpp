@@ -147,7 +147,6 @@ QWidget* ParameterLine::makeEditor() {
     }
     case Kind::curve:
     case Kind::bands:
-    case Kind::rules:
     case Kind::lines:
       break;
   }

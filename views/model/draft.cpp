@@ -41,10 +41,6 @@ Findings refusals(const ParameterRow& row, const ParameterValue& value) {
   } else if (const BandList* bands = std::get_if<BandList>(&value)) {
     for (const Band& b : bands->span())
       if (!std::isfinite(b.low)) return refuse("finite numbers", toText(row, value));
-  } else if (const RuleList* rules = std::get_if<RuleList>(&value)) {
-    for (const FuzzyRule& r : rules->span())
-      if (!std::isfinite(r.weight) || !std::isfinite(r.output))
-        return refuse("finite numbers", toText(row, value));
   }
   return {};
 }

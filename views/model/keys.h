@@ -14,7 +14,6 @@ inline constexpr std::string_view kPitchReading = "fuzzy.pitch.reading";
 inline constexpr std::string_view kBands = "fuzzy.bands_px";
 inline constexpr std::string_view kHysteresis = "fuzzy.hysteresis";
 inline constexpr std::string_view kCombination = "fuzzy.combination";
-inline constexpr std::string_view kRules = "fuzzy.rules";
 inline constexpr std::string_view kPolicyEnabled = "policy.enabled";
 inline constexpr std::string_view kPolicyNorm = "policy.norm";
 inline constexpr std::string_view kPolicyTerms = "policy.terms";
@@ -23,7 +22,7 @@ inline constexpr std::string_view kBudget = "measure.budget_ms";
 
 /// Reports whether this row has an editor of its own in a dock.
 constexpr bool hasEditor(std::string_view key) {
-  return key == kAltitudeCurve || key == kPitchCurve || key == kBands || key == kRules ||
+  return key == kAltitudeCurve || key == kPitchCurve || key == kBands ||
          key == kPolicyTerms || key == kPolicyRules;
 }
 

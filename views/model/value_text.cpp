@@ -16,7 +16,7 @@ QString tr(const char* text) {
 }
 
 bool isList(const ParameterRow& row) {
-  return row.kind == Kind::curve || row.kind == Kind::bands || row.kind == Kind::rules ||
+  return row.kind == Kind::curve || row.kind == Kind::bands ||
          row.kind == Kind::lines;
 }
 
@@ -51,8 +51,6 @@ QString shortText(const ParameterRow& row, const ParameterValue& value) {
       return tr("%1 points").arg(std::get<CurvePoints>(value).size);
     case Kind::bands:
       return tr("%1 bands").arg(std::get<BandList>(value).size);
-    case Kind::rules:
-      return tr("%1 rules").arg(std::get<RuleList>(value).size);
     case Kind::lines:
       return tr("%1 lines").arg(std::get<TextLines>(value).line.size());
     case Kind::scalar:

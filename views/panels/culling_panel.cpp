@@ -39,11 +39,6 @@ QString whatServes(OcclusionMethod method, const QString& size) {
       return CullingPanel::tr("A <b>depth map by the processor</b> serves%1.").arg(size);
     case OcclusionMethod::horizon:
       return CullingPanel::tr("The <b>horizon</b> serves: what the ground about the eye hides, all round.");
-    case OcclusionMethod::horizon_and_map:
-      return CullingPanel::tr(
-                 "The <b>horizon</b> serves, and a <b>depth map by the processor</b>%1 for "
-                 "what it leaves.")
-          .arg(size);
     case OcclusionMethod::automatic:
       break;
   }
@@ -160,9 +155,7 @@ void CullingPanel::showHorizon(std::vector<float> elevationDeg, double headingDe
 
 QString CullingPanel::whyNoHorizon() const {
   if (!frame_.drawn().note.empty()) return QString::fromStdString(frame_.drawn().note);
-  if (frame_.drawn().occlusion == OcclusionMethod::horizon ||
-      frame_.drawn().occlusion == OcclusionMethod::horizon_and_map)
-    return horizonLeftOut();
+  if (frame_.drawn().occlusion == OcclusionMethod::horizon) return horizonLeftOut();
   if (frame_.drawn().occlusion || frame_.drawn().depthMap) return tr("A depth map serves, not the horizon.");
   return tr("No horizon: nothing asks for one in this frame.");
 }
@@ -188,13 +181,12 @@ QString CullingPanel::served() const {
           : QString();
   if (frame_.drawn().occlusion) {
     const OcclusionMethod method = *frame_.drawn().occlusion;
-    const bool both = method == OcclusionMethod::horizon_and_map;
     QStringList sentences{whatServes(method, size)};
     if (!note.isEmpty()) sentences << note;
-    if (!frame_.drawn().horizon && note.isEmpty() && (both || method == OcclusionMethod::horizon))
+    if (!frame_.drawn().horizon && note.isEmpty() && method == OcclusionMethod::horizon)
       sentences << horizonLeftOut();
     if (!frame_.drawn().depthMap && !frame_.drawn().visible.tiles.empty() &&
-        (both || method == OcclusionMethod::cpu_map))
+        method == OcclusionMethod::cpu_map)
       sentences << tr("The map is left out: near here one hid next to nothing.");
     return sentences.join(QLatin1Char(' '));
   }

@@ -12,8 +12,7 @@ QString sizeText(const std::optional<OcclusionResolution>& size) {
 }
 
 bool isInputAtFault(SchemeReason reason) {
-  return reason == SchemeReason::invalid_input || reason == SchemeReason::altitude_unknown ||
-         reason == SchemeReason::no_rule_fires;
+  return reason == SchemeReason::invalid_input || reason == SchemeReason::altitude_unknown;
 }
 
 }  // namespace

@@ -21,7 +21,6 @@
 #include "views/controls/bar_list.h"
 #include "views/controls/lever_chain_table.h"
 #include "views/controls/tell_findings.h"
-#include "views/editors/rule_edit.h"
 #include "views/model/depth_map_reason.h"
 #include "views/model/theme.h"
 
@@ -52,7 +51,6 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
       count_(new QLabel),
       levers_(new LeverChainTable),
       memberships_(new BarList),
-      rules_(new BarList),
       log_(new DecisionLog(this)),
       view_(new QTableView),
       throttle_(this, [this] { refresh(); }) {
@@ -68,7 +66,6 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
   lead_->hide();
   connect(lead_, &QPushButton::clicked, this, &DecisionPanel::cullingAsked);
   memberships_->setAccessibleName(tr("Memberships"));
-  rules_->setAccessibleName(tr("Firing of the rules"));
 
   view_->setModel(log_);
   view_->setAccessibleName(tr("Log of decision changes"));
@@ -125,7 +122,6 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
   layout->addWidget(lead_, 0, Qt::AlignLeft);
   layout->addWidget(levers_);
   layout->addWidget(memberships_);
-  layout->addWidget(rules_);
   layout->addLayout(logBar);
   layout->addWidget(view_, 1);
 
@@ -179,24 +175,6 @@ void DecisionPanel::refresh() {
       {{tr("Altitude"), d.altitudeMembership, 1, text(d.altitudeMembership), {}, 0},
        {tr("Pitch"), d.pitchMembership, 1, text(d.pitchMembership), {}, 2},
        {tr("Total"), d.totalMembership, BandList::kTop, text(d.totalMembership), edges, 1}});
-  const bool quiet = p.scheme.combination != Combination::rules;
-  std::vector<BarList::Bar> bars;
-  for (std::size_t i = 0; i < p.scheme.rules.size; ++i) {
-    const FuzzyRule& rule = p.scheme.rules.rule[i];
-    const double mu = i < d.ruleFiring.count ? d.ruleFiring.mu[i] : 0;
-    bars.push_back({ruleLabel(rule),
-                    mu,
-                    1,
-                    tr("%1 (weight %2, output %3)")
-                        .arg(text(mu), numberText(rule.weight, 2), numberText(rule.output, 2)),
-                    {},
-                    3,
-                    quiet});
-  }
-  rules_->setBars(std::move(bars));
-  rules_->setToolTip(quiet ? tr("Firing of the rules. The total does not come from them: the "
-                                "combination is not the rule base.")
-                           : tr("Firing of the rules. The total is their weighted output (Eq. 2)."));
   const int rows = log_->rowCount();
   count_->setText(log_->forgotten() > 0 ? tr("%1 shown, %2 older forgotten").arg(rows).arg(log_->forgotten())
                                         : QString::number(rows));

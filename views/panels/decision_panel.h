@@ -45,7 +45,7 @@ class DecisionPanel : public QWidget {
   QPushButton* lead_;
   QLabel* count_;
   LeverChainTable* levers_;
-  BarList *memberships_, *rules_;
+  BarList* memberships_;
   DecisionLog* log_;
   QTableView* view_;
   LiveFrame frame_;

@@ -146,8 +146,7 @@ void SurfacePlot::compute() {
   for (int r = 0; r < kRows; ++r) {
     const double pitch = pitchMembership(p.pitch, at(y, r, kRows));
     for (int c = 0; c < kColumns; ++c) {
-      const double total =
-          combine(p.scheme.combination, p.scheme.rules, altitude[static_cast<std::size_t>(c)], pitch).total;
+      const double total = combine(p.scheme.combination, altitude[static_cast<std::size_t>(c)], pitch);
       cells->setCell(c, r, total);
       totals[next++] = total;
     }
@@ -185,9 +184,8 @@ void SurfacePlot::drawEdges(const std::vector<double>& totals) {
 double SurfacePlot::totalAt(double altitudeFt, double pitchDeg) const {
   if (computed_ == 0 || !xAxis->range().contains(altitudeFt) || !yAxis->range().contains(pitchDeg))
     return kNan;
-  return combine(shown_.scheme.combination, shown_.scheme.rules,
-                 altitudeMembership(shown_.altitude, altitudeFt), pitchMembership(shown_.pitch, pitchDeg))
-      .total;
+  return combine(shown_.scheme.combination, altitudeMembership(shown_.altitude, altitudeFt),
+                 pitchMembership(shown_.pitch, pitchDeg));
 }
 
 void SurfacePlot::showFrame(const LiveFrame& frame) {

@@ -330,7 +330,7 @@ void PolicyPanel::showEditorOf(std::string_view key) {
     return;
   }
   parts_.signalsList->choose(std::nullopt);
-  key == key::kRules ? parts_.scheme->showRules() : parts_.scheme->showMemberships();
+  parts_.scheme->showMemberships();
   parts_.scheme->setFocus();
 }
 

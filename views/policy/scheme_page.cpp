@@ -4,41 +4,30 @@
 #include "views/controls/scrollable.h"
 #include "views/editors/membership_editor.h"
 #include "views/model/value_text.h"
-#include "views/panels/rules_panel.h"
 #include "views/plots/surface_plot.h"
 
 namespace trimtab::views {
 
 SchemePage::SchemePage(Draft& draft, QWidget* parent)
-    : QTabWidget(parent),
-      memberships_(new MembershipEditor(draft)),
-      rules_(new RulesPanel(draft)),
-      surface_(new SurfacePlot(draft)) {
+    : QTabWidget(parent), memberships_(new MembershipEditor(draft)), surface_(new SurfacePlot(draft)) {
   setDocumentMode(true);
   setAccessibleName(tr("Culling scheme by altitude and pitch"));
   addTab(scrollable(memberships_, tr("Memberships")), tr("Memberships"));
-  addTab(scrollable(rules_, tr("Rules")), tr("Rules"));
   addTab(surface_, tr("Surface"));
   setTabToolTip(0, tr("Altitude and pitch curves%1").arg(documentsHtml("A, B: Table 1")));
-  setTabToolTip(
-      1, tr("The rule base of Eq. (2), and what each rule does now%1").arg(documentsHtml("A, B: Eq. (2)")));
-  setTabToolTip(2, tr("The total membership over altitude and pitch"));
+  setTabToolTip(1, tr("The total membership over altitude and pitch"));
 }
 
 void SchemePage::showFrame(const LiveFrame& frame) {
   memberships_->showFrame(frame);
-  rules_->showFrame(frame);
   surface_->showFrame(frame);
 }
 
 void SchemePage::showMemberships() {
   setCurrentIndex(0);
 }
-void SchemePage::showRules() {
-  setCurrentIndex(1);
-}
 void SchemePage::showSurface() {
-  setCurrentIndex(2);
+  setCurrentIndex(1);
 }
 
 }  // namespace trimtab::views

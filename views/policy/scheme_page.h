@@ -9,7 +9,6 @@
 namespace trimtab::views {
 
 class MembershipEditor;
-class RulesPanel;
 class SurfacePlot;
 
 /// Shows the scheme of documents A and B in tabs. `draft` must outlive it.
@@ -18,16 +17,13 @@ class SchemePage : public QTabWidget {
  public:
   explicit SchemePage(Draft& draft, QWidget* parent = nullptr);
   MembershipEditor& memberships() { return *memberships_; }
-  RulesPanel& rules() { return *rules_; }
   SurfacePlot& surface() { return *surface_; }
   void showFrame(const LiveFrame& frame);
   void showMemberships();
-  void showRules();
   void showSurface();
 
  private:
   MembershipEditor* memberships_;
-  RulesPanel* rules_;
   SurfacePlot* surface_;
 };
 

@@ -37,7 +37,6 @@
 #include "trimtab/units/labelled.h"
 #include "views/panels/budget_strip.h"
 #include "views/panels/plots_panel.h"
-#include "views/panels/rules_panel.h"
 #include "views/panels/static_lod_panel.h"
 #include "views/plots/plot_picture.h"
 #include "views/policy/policy_panel.h"
@@ -258,7 +257,11 @@ void MainWindow::openAny(const QString& path) {
     case FileKind::preset:
       return c.document->openOverEdits(path);
     case FileKind::rules:
-      return importRules(path);
+      if (const Findings findings = panels_.policy->importFile(path); hasError(findings))
+        messages().add(tr("%1 is no policy").arg(path), findings);
+      else
+        messages().add(tr("The policy was imported: %1").arg(path), findings);
+      return;
     case FileKind::head_log:
       c.head->open(path);
       return;
@@ -268,17 +271,6 @@ void MainWindow::openAny(const QString& path) {
     case FileKind::terrain:
       return c.terrain->open(path);
   }
-}
-
-/// A file of fuzzy logic is a policy, or the curves and rules of the culling scheme: the endings are the
-/// same.
-void MainWindow::importRules(const QString& path) {
-  Findings asPolicy = panels_.policy->importFile(path);
-  if (!hasError(asPolicy)) return messages().add(tr("The policy was imported: %1").arg(path), asPolicy);
-  const Findings asRules = panels_.policy->parts().scheme->rules().importFile(path);
-  if (!hasError(asRules)) return messages().add(tr("The rules were imported: %1").arg(path), asRules);
-  asPolicy.insert(asPolicy.end(), asRules.begin(), asRules.end());
-  messages().add(tr("%1 is neither a policy nor the rules of the culling scheme").arg(path), asPolicy);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

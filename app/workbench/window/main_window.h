@@ -70,7 +70,6 @@ class MainWindow : public QMainWindow {
   void connectPause();
   void showPause();
   void welcome();
-  void importRules(const QString& path);
   void connectParts();
   void restoreSize();
   void showPlotsOf(int workspace);

@@ -31,7 +31,6 @@
 #include "views/model/draft.h"
 #include "views/model/theme.h"
 #include "views/panels/culling_panel.h"
-#include "views/panels/rules_panel.h"
 #include "views/panels/snapshots_panel.h"
 #include "views/panels/terrain_panel.h"
 #include "views/policy/policy_panel.h"
@@ -111,14 +110,6 @@ void Menus::makeFileMenu() {
               tr("Exports to the last target of this preset without a question; asks if there is none"),
               &exporting},
              {tr("&Export for an image generator..."), tr("Ctrl+Shift+E"), [&] { document.askExport(); }},
-             {tr("&Import rules..."),
-              {},
-              [this] { panels_.policy->parts().scheme->rules().askAndImport(); },
-              tr("Curves and rules of the culling scheme")},
-             {tr("Export r&ules..."),
-              {},
-              [this] { panels_.policy->parts().scheme->rules().askAndExport(); },
-              tr("Curves and rules of the culling scheme")},
              {tr("Import polic&y..."),
               {},
               [this] { panels_.policy->askAndImport(); },

@@ -89,7 +89,7 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool
   // If counts must not depend on earlier frames, all surfaces are made at once.
   const bool atOnce = request.reproducible || request.waitForPages;
   ground_.share().begin(atOnce ? std::numeric_limits<std::size_t>::max() : SurfaceShare::kAFrame);
-  if (!horizonServes()) return;
+  if (!serves(OcclusionMethod::horizon)) return;
   // A frame that must not depend on earlier ones uses no horizon of another eye position.
   const bool alone = request.reproducible && !request.skips.littleHidden;
   const HorizonMemory::Result found =
@@ -106,11 +106,8 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool
   result_.horizon = !hidden_.empty();
   if (!found.noGraph) return;
   result_.note = kNoGraph;
-  if (serves(OcclusionMethod::horizon))
-    serves_.reset();
-  else
-    serves_ = OcclusionMethod::cpu_map;
-  result_.occlusion = serves_;
+  serves_.reset();
+  result_.occlusion.reset();
 }
 
 std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& request, bool gpuDrawsMaps) {
@@ -130,8 +127,7 @@ std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& reque
 /// Chooses the method by cost. The GPU's depth map is not among them: on a software rasteriser the
 /// processor's own map does the same for less, and on a GPU the frame would wait for the result.
 std::optional<OcclusionMethod> OcclusionStage::choose(const FrameRequest& request) {
-  static constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map,
-                                                 OcclusionMethod::cpu_map};
+  static constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::cpu_map};
   const std::uint64_t band = (static_cast<std::uint64_t>(resolution_.widthPx) << 32) |
                              static_cast<std::uint32_t>(resolution_.heightPx);
   chosen_ = true;

@@ -61,12 +61,7 @@ class OcclusionStage {
   /// Returns the method used in this frame; unset if nothing looks for hidden ground.
   std::optional<OcclusionMethod> serves() const { return serves_; }
   bool serves(OcclusionMethod method) const { return serves_ == method; }
-  bool horizonServes() const {
-    return serves(OcclusionMethod::horizon) || serves(OcclusionMethod::horizon_and_map);
-  }
-  bool mapServes() const {
-    return serves(OcclusionMethod::cpu_map) || serves(OcclusionMethod::horizon_and_map);
-  }
+  bool mapServes() const { return serves(OcclusionMethod::cpu_map); }
   /// Returns the occlusion resolution of the last frame that had a method.
   OcclusionResolution resolution() const { return resolution_; }
   /// Returns whether the eye is over the ground and above it, so that no underside can be seen.

@@ -185,8 +185,6 @@ class Frames {
         return "_cpu_map";
       case OcclusionMethod::horizon:
         return "_horizon";
-      case OcclusionMethod::horizon_and_map:
-        return "_horizon_and_map";
     }
     return {};
   }
@@ -224,8 +222,8 @@ void rowsOf(Report& report, const std::string& name,
   if (name == "sea") return;
   frames.row(report, name, {.feet = 2000, .errorPx = 0.05});
   if (name != "mountains" && name != "everest") return;
-  for (const OcclusionMethod method : {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map,
-                                       OcclusionMethod::cpu_map, OcclusionMethod::depth_map})
+  for (const OcclusionMethod method :
+       {OcclusionMethod::horizon, OcclusionMethod::cpu_map, OcclusionMethod::depth_map})
     frames.row(report, name, {.feet = 2000, .method = method});
 }
 

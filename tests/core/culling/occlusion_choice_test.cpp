@@ -13,7 +13,7 @@ namespace {
 
 using Method = OcclusionChoice::Method;
 
-constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map,
+constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::depth_map,
                                         OcclusionMethod::cpu_map};
 
 /// What a machine takes for a frame, made up.
@@ -326,7 +326,7 @@ TEST(OcclusionChoice, findsWhatHadNoHopeOnceThereIsMuchLeftToHide) {
   const Total total = fly(flight);
   const auto middle = total.methods.begin() + static_cast<std::ptrdiff_t>(total.methods.size() / 2);
   const auto isMap = [](Method m) {
-    return m == OcclusionMethod::cpu_map || m == OcclusionMethod::horizon_and_map;
+    return m == OcclusionMethod::cpu_map || m == OcclusionMethod::depth_map;
   };
   EXPECT_LT(std::count_if(total.methods.begin(), middle, isMap), 60);
   // Within half a second.

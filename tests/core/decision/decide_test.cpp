@@ -191,16 +191,6 @@ TEST(Decide, holdsABandByHysteresisAndSaysSo) {
   EXPECT_EQ(decide(flying(3000, -3.1), p, memory).band, 3);
 }
 
-TEST(Decide, saysThatNoRuleFires) {
-  TuningParameters p = kDefaults;
-  p.scheme.combination = Combination::rules;
-  p.scheme.rules.rule[0].weight = 0;
-  const FrameDecision d = first(flying(0, -40), valid(p));
-  EXPECT_EQ(d.reason, SchemeReason::no_rule_fires);
-  EXPECT_EQ(d.totalMembership, 0);
-  EXPECT_EQ(d.scheme, Scheme::frustum);
-}
-
 TEST(Decide, carriesTheLevelOfDetailScale) {
   TuningParameters p = kDefaults;
   p.lod.scale = Ratio{1.5};
@@ -257,14 +247,12 @@ TEST(Decide, isPureButForItsMemory) {
 }
 
 TEST(Decide, doesNotAllocate) {
-  TuningParameters rules = kDefaults;
-  rules.scheme.combination = Combination::rules;
   TuningParameters policy = kDefaults;
   policy.policy.enabled = true;
   policy.policy.terms.line = {"altitude low = ramp 8000 2000", "pitch down = ramp 0 -20"};
   policy.policy.rules.line = {"if altitude is low and not pitch is down then screen_space_error = 4",
                               "if pitch is down then lod_scale = 2, particle_density = 0.5"};
-  for (const ValidatedParameters& p : {defaultParameters(), valid(rules), valid(policy)}) {
+  for (const ValidatedParameters& p : {defaultParameters(), valid(policy)}) {
     DecisionMemory memory;
     FrameInput inputs[] = {flying(3000, 1), flying(9000, 29), flying(kNan, 0), flying(6500, -12)};
     for (FrameInput& input : inputs) {
@@ -298,16 +286,6 @@ TEST(Explain, namesNumbersOutcomeAndReasonInOneLine) {
             "[1.5, 2] by hysteresis 0.05");
   EXPECT_EQ(explain(first(flying(kNan, 0), p), p),
             "frustum, no depth map: the altitude or the pitch is not a number");
-}
-
-TEST(Explain, namesTheRulesThatFire) {
-  TuningParameters p = kDefaults;
-  p.scheme.combination = Combination::rules;
-  const ValidatedParameters rules = valid(p);
-  EXPECT_EQ(
-      explain(first(flying(3000, 0), rules), rules),
-      "dynamic, depth map 800 x 600: 3000 ft gives 1.000, pitch 0.00 deg gives 0.500, rules 1.500 (low-down "
-      "0.500, low-up 0.500), in band [1.5, 2]");
 }
 
 TEST(Decide, theChainKeepsWhatThePresetWouldHaveDrawn) {

@@ -40,11 +40,14 @@ struct Case {
   void (*edit)(TuningParameters&);
 };
 void none(TuningParameters&) {}
+constexpr const char* kFormerRules =
+    R"({"format": "trimtab-preset", "version": 3, "parameters": {"fuzzy.combination": "rules"}})";
 constexpr Case kCases[] = {
     {"default", "default", none},
     {"as-published", "as-published", none},
     {"as-printed", "as-printed", none},
-    {"rules", "default", [](TuningParameters& p) { p.scheme.combination = Combination::rules; }},
+    // What a preset of before with "fuzzy.combination": "rules" is migrated to.
+    {"rules", "default", [](TuningParameters& p) { p = parsePreset(kFormerRules, "former")->parameters; }},
     {"twice-minimum", "default",
      [](TuningParameters& p) { p.scheme.combination = Combination::twice_minimum; }},
 };

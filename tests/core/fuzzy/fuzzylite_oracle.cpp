@@ -14,9 +14,6 @@
 namespace trimtab::test {
 namespace {
 
-const AltitudeParameters kAltitude;
-const PitchParameters kPitch;
-
 std::string exact(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", value);
@@ -48,45 +45,21 @@ std::string inputs(const AltitudeParameters& altitude, const PitchParameters& pi
          discrete("down", pitch.curve, false) + discrete("up", pitch.curve, true);
 }
 
-std::string outputTerm(std::size_t index) {
-  return "u" + std::to_string(index);
-}
-
-std::string equationOutput(const RuleList& rules) {
-  std::string terms;
-  for (std::size_t i = 0; i < rules.size; ++i) terms += constant(outputTerm(i).c_str(), rules.rule[i].output);
-  return output("rules", "WeightedAverage", terms);
-}
-
 constexpr const char* kRuleBlock =
     "RuleBlock: base\n  enabled: true\n  conjunction: Minimum\n  disjunction: none\n"
     "  implication: AlgebraicProduct\n  activation: General\n";
 
-std::string equationRules(const RuleList& rules) {
-  static constexpr const char *altitudeTerms[] = {"any", "low", "high"},
-                              *pitchTerms[] = {"any", "down", "up"};
-  std::string text;
-  for (std::size_t i = 0; i < rules.size; ++i) {
-    const FuzzyRule& r = rules.rule[i];
-    text += std::string("  rule: if altitude is ") + altitudeTerms[static_cast<std::size_t>(r.altitude)] +
-            " and pitch is " + pitchTerms[static_cast<std::size_t>(r.pitch)] + " then rules is " +
-            outputTerm(i) + " with " + exact(r.weight) + '\n';
-  }
-  return text;
-}
-
-/// The same decision as ours, in the oracle's language: the sum by WeightedSum, Eq. (2) by WeightedAverage.
-std::string engine(const AltitudeParameters& altitude, const PitchParameters& pitch, const RuleList& rules) {
+/// The same decision as ours, in the oracle's language.
+std::string engine(const AltitudeParameters& altitude, const PitchParameters& pitch) {
   return inputs(altitude, pitch) + output("altitudeMembership", "WeightedSum", constant("one", 1)) +
          output("pitchMembership", "WeightedSum", constant("one", 1)) +
          output("sum", "WeightedSum", constant("one", 1)) +
-         output("twiceMinimum", "WeightedSum", constant("two", 2)) + equationOutput(rules) + kRuleBlock +
+         output("twiceMinimum", "WeightedSum", constant("two", 2)) + kRuleBlock +
          "  rule: if altitude is low then altitudeMembership is one\n"
          "  rule: if pitch is down then pitchMembership is one\n"
          "  rule: if altitude is low then sum is one\n"
          "  rule: if pitch is down then sum is one\n"
-         "  rule: if altitude is low and pitch is down then twiceMinimum is two\n" +
-         equationRules(rules);
+         "  rule: if altitude is low and pitch is down then twiceMinimum is two\n";
 }
 
 std::string gridText(const Grid& grid) {
@@ -98,10 +71,11 @@ std::string gridText(const Grid& grid) {
 
 /// Runs the engine over the grid; the oracle's file, its header first.
 std::string evaluate(const ScratchDir& dir, const std::string& engineText, const Grid& grid,
-                     std::string& error, const std::string& format = "fll") {
-  writeFile(dir / ("engine." + format), engineText);
+                     std::string& error) {
+  writeFile(dir / "engine.fll", engineText);
   writeFile(dir / "in.fld", gridText(grid));
-  const Ran ran = run("cd " + dir.path().string() + " && fuzzylite -i engine." + format + " -if " + format +
+  const Ran ran = run("cd " + dir.path().string() +
+                      " && fuzzylite -i engine.fll -if fll"
                       " -o out.fld -of fld -d in.fld -decimals 12");
   if (ran.exitCode != 0)
     error = "fuzzylite ended with status " + std::to_string(ran.exitCode) + ": " + ran.err;
@@ -124,12 +98,12 @@ Grid gridFor(const AltitudeParameters& altitude, const PitchParameters& pitch, i
 }
 
 std::vector<FuzzyResult> byFuzzylite(const AltitudeParameters& altitude, const PitchParameters& pitch,
-                                     const RuleList& rules, const Grid& grid, std::string& error) {
+                                     const Grid& grid, std::string& error) {
   const ScratchDir dir;
-  std::istringstream out(evaluate(dir, engine(altitude, pitch, rules), grid, error));
+  std::istringstream out(evaluate(dir, engine(altitude, pitch), grid, error));
   std::string line;
   std::getline(out, line);
-  if (line != "altitude pitch altitudeMembership pitchMembership sum twiceMinimum rules")
+  if (line != "altitude pitch altitudeMembership pitchMembership sum twiceMinimum")
     error += "unexpected header: " + line;
   std::vector<FuzzyResult> results;
   while (std::getline(out, line)) {
@@ -151,18 +125,6 @@ std::vector<FuzzyResult> byFuzzylite(const AltitudeParameters& altitude, const P
   return results;
 }
 
-std::vector<double> byFuzzylite(const std::string& engineText, const std::string& format, const Grid& grid,
-                                std::string& error) {
-  const ScratchDir dir;
-  std::istringstream out(evaluate(dir, engineText, grid, error, format));
-  std::string line;
-  std::getline(out, line);
-  std::vector<double> totals;
-  while (std::getline(out, line)) totals.push_back(std::strtod(line.c_str() + line.rfind(' ') + 1, nullptr));
-  if (totals.size() != grid.size() && error.empty()) error = "the oracle stopped early";
-  return totals;
-}
-
 std::string convertedByFuzzylite(const std::string& engineText, const std::string& from,
                                  const std::string& to) {
   const ScratchDir dir;
@@ -172,21 +134,10 @@ std::string convertedByFuzzylite(const std::string& engineText, const std::strin
   return ran.exitCode == 0 ? readFile(dir / ("out." + to)) : std::string();
 }
 
-FuzzyResult byUs(const AltitudeParameters& altitude, const PitchParameters& pitch, const RuleList& rules,
-                 double altitudeFt, double pitchDeg) {
+FuzzyResult byUs(const AltitudeParameters& altitude, const PitchParameters& pitch, double altitudeFt,
+                 double pitchDeg) {
   const double mu = altitudeMembership(altitude, altitudeFt), nu = pitchMembership(pitch, pitchDeg);
-  return {mu, nu, combine(Combination::sum, rules, mu, nu).total,
-          combine(Combination::twice_minimum, rules, mu, nu).total,
-          combine(Combination::rules, rules, mu, nu).total};
-}
-
-std::optional<double> fuzzyliteNanoseconds(const Grid& grid, int runs) {
-  const ScratchDir dir;
-  std::string error;
-  // Its benchmark reads the outputs that it expects from the same file.
-  evaluate(dir, inputs(kAltitude, kPitch) + equationOutput(kRuleBase) + kRuleBlock + equationRules(kRuleBase),
-           grid, error);
-  return error.empty() ? benchmarkNanoseconds(dir.path(), grid.size(), runs) : std::nullopt;
+  return {mu, nu, combine(Combination::sum, mu, nu), combine(Combination::twice_minimum, mu, nu)};
 }
 
 std::optional<double> benchmarkNanoseconds(const std::filesystem::path& dir, std::size_t rows, int runs) {

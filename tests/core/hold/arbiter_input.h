@@ -18,7 +18,6 @@ inline HoldGiven given(double timeS = 0) {
   g.timeS = timeS;
   g.budgetMs = 100;
   g.asked = {1, 1, 1, 1};
-  g.unseenPx = 1;
   g.particles = 1;
   g.blurs = true;
   g.imageMpx = 1;

@@ -36,9 +36,7 @@ Twin leastLoss(const HoldGiven& g, const HoldParameters& p, double limitMs) {
               predict(g.cost, loadOf(g, levers, trianglesAt(g.triangles, g.asked.errorPx, errorPx))).total();
           if (ms > limitMs) continue;
           const double loss =
-              p.lossError.value() *
-                  std::max(std::pow(errorPx, 1.5) - std::pow(std::max(g.unseenPx, g.asked.errorPx), 1.5),
-                           0.0) /
+              p.lossError.value() * std::max(std::pow(errorPx, 1.5) - std::pow(g.asked.errorPx, 1.5), 0.0) /
                   63 +
               p.lossRenderScale.value() * std::pow(std::max(g.asked.renderScale / scale - 1, 0.0), 0.5) +
               p.lossParticles.value() * (g.asked.particleShare - share) +
@@ -49,9 +47,7 @@ Twin leastLoss(const HoldGiven& g, const HoldParameters& p, double limitMs) {
 }
 
 double lossOf(const HoldGiven& g, const HoldParameters& p, const HeldLevers& held) {
-  return p.lossError.value() *
-             std::max(std::pow(held.errorPx, 1.5) - std::pow(std::max(g.unseenPx, g.asked.errorPx), 1.5),
-                      0.0) /
+  return p.lossError.value() * std::max(std::pow(held.errorPx, 1.5) - std::pow(g.asked.errorPx, 1.5), 0.0) /
              63 +
          p.lossRenderScale.value() *
              std::pow(std::max(g.asked.renderScale / held.renderScale - 1, 0.0), 0.5) +
@@ -75,7 +71,6 @@ TEST(Arbiter, losesAsLittleAsAnySettingThatFits) {
   for (int i = 0; i < 300; ++i) {
     HoldGiven g = given();
     g.asked = {between(0.3, 8), between(0.5, 1), between(0.25, 1), 1};
-    g.unseenPx = between(0, 10);
     g.cost.perGroundMpx = between(0, 60);
     g.cost.perParticles = between(0, 60);
     g.cost.perTriangle = between(0, 5e-4);
@@ -222,7 +217,6 @@ TEST(Arbiter, changesLevelsTwiceAtMostInAGlance) {
     const bool sweeps = i >= 50 && i < 150;
     const double part = sweeps ? std::sin((i - 50) / 100.0 * 3.14159) : 0;
     for (double& triangles : g.triangles) triangles *= 1 + 2 * part;
-    g.unseenPx = errorInMotion(1, sweeps ? 180 : 0, 16, 1100);
     HoldParameters p = enabled();
     p.renderScaleMinimum = Ratio{1};
     const HoldDecision d = arbitrate(g, p, memory);

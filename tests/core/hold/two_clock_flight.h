@@ -93,8 +93,7 @@ class TwoClockFlight {
       if (holds) {
         std::vector<ComingEye> coming;
         for (int k = 1; k <= 5; ++k) coming.push_back({requestAt(i + k).eye, requestAt(i + k).attitude});
-        const double errorPx = request.levers.policy.errorPx;
-        d = hold.decide(hold.look(request, coming, c.budgetMs, errorPx), p, request);
+        d = hold.decide(hold.look(request, coming, c.budgetMs), p, request);
       }
       const double noise = std::normal_distribution<double>(1, 0.03)(random);
       const double triangles = trianglesOf(request, request.levers.drawn.errorPx);

@@ -126,14 +126,12 @@ TraceRow anyRow(std::mt19937_64& random) {
   for (double* value :
        {&d.altitudeFt, &d.pitchDeg, &d.altitudeMembership, &d.pitchMembership, &d.totalMembership})
     *value = number();
-  d.ruleFiring.count = random() % (RuleList::kCapacity + 1);
-  for (std::size_t i = 0; i < d.ruleFiring.count; ++i) d.ruleFiring.mu[i] = number();
   d.scheme = random() % 2 ? Scheme::dynamic : Scheme::frustum;
   d.band = static_cast<int>(random() % 17) - 1;
   if (random() % 2)
     d.occlusionResolution =
         OcclusionResolution{static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
-  d.reason = static_cast<SchemeReason>(random() % 6);
+  d.reason = static_cast<SchemeReason>(random() % 5);
   LeverChain& chain = row.levers;
   for (FrameLevers* levers : {&chain.preset, &chain.motion, &chain.weather, &chain.policy, &chain.drawn}) {
     *levers = {number(), number(), number(), number(), number(), number(), number(), number(), {}};
@@ -245,12 +243,10 @@ std::vector<TraceRow> recorded(const ValidatedParameters& parameters) {
 TEST(Trace, decidesAgainBitForBit) {
   TuningParameters aboveGround = kDefaults;
   aboveGround.altitude.reference = AltitudeReference::above_ground;
-  TuningParameters rules = kDefaults;
-  rules.scheme.combination = Combination::rules;
   TuningParameters weather = kDefaults;
   weather.weather.source = WeatherSource::host;
   weather.rainMedium.farStretch = Ratio{1.7};
-  for (const TuningParameters& p : {kDefaults, aboveGround, rules, weather}) {
+  for (const TuningParameters& p : {kDefaults, aboveGround, weather}) {
     const Result<ValidatedParameters> parameters = validate(p);
     ASSERT_TRUE(parameters.ok());
     const std::vector<TraceRow> rows = recorded(*parameters);

@@ -70,13 +70,6 @@ std::vector<std::string> wordsOf(const ParameterRow& row, const ParameterValue& 
     for (const CurvePoint& p : v->span()) number(p.x), number(p.y);
   if (const auto* v = std::get_if<BandList>(&value))
     for (const Band& b : v->span()) number(b.low), number(b.widthPx), number(b.heightPx);
-  if (const auto* v = std::get_if<RuleList>(&value))
-    for (const FuzzyRule& r : v->span()) {
-      static constexpr const char *kAltitude[] = {"any", "low", "high"}, *kPitch[] = {"any", "down", "up"};
-      words.emplace_back(kAltitude[static_cast<std::size_t>(r.altitude)]);
-      words.emplace_back(kPitch[static_cast<std::size_t>(r.pitch)]);
-      number(r.weight), number(r.output);
-    }
   if (const auto* v = std::get_if<TextLines>(&value))
     for (const std::string& line : v->line) words.emplace_back(line);
   return words;
@@ -110,10 +103,8 @@ TEST(Export, hasEveryKeyAndValueInJson) {
     EXPECT_EQ(json.at("provenance").at("terrain"), kProvenance.terrain);
     EXPECT_EQ(json.at("provenance").at("comment"), kProvenance.comment);
     EXPECT_EQ(json.at("parameters").size(), parameterRows().size());
-    // Two by hand, so that a row of the wrong field is seen too.
+    // One by hand, so that a row of the wrong field is seen too.
     EXPECT_EQ(json.at("parameters").at("view.near_m").get<double>(), parameters.view.nearDistance.value());
-    EXPECT_EQ(json.at("parameters").at("fuzzy.rules").at(0).at("output").get<double>(),
-              parameters.scheme.rules.rule[0].output);
     for (const ParameterRow& row : parameterRows()) {
       std::vector<std::string> words;
       collect(json.at("parameters").at(std::string(row.key)), words);
@@ -181,17 +172,6 @@ std::map<std::string, std::string> readIni(const std::string& text) {
   return values;
 }
 
-/// Rules of an INI file with every condition spelt out, by sed: "low*1=2" becomes "low any 1 2".
-std::string rulesAsWords(const std::string& text) {
-  const test::ScratchDir dir;
-  test::writeFile(dir / "rules", text + "\n");
-  return test::
-      run("tr ' ' '\\n' < " + (dir / "rules").string() +
-          R"( | sed -e 's/^any\*/any any*/' -e 's/^\(low\|high\)\*/\1 any*/' -e 's/^\(down\|up\)\*/any \1*/')"
-          R"( -e 's/[&*=]/ /g')")
-          .out;
-}
-
 TEST(Export, hasEveryKeyAndValueInIni) {
   for (const TuningParameters& parameters : samples()) {
     const auto values = readIni(exported(parameters, ExportFormat::ini));
@@ -207,7 +187,6 @@ TEST(Export, hasEveryKeyAndValueInIni) {
       if (row.kind == Kind::curve || row.kind == Kind::bands)
         std::replace_if(
             text.begin(), text.end(), [](char c) { return c == ':' || c == 'x'; }, ' ');
-      if (row.kind == Kind::rules) text = rulesAsWords(text);
       if (row.kind == Kind::lines) {
         std::string lines;
         for (const std::string& line : wordsOf(row, row.get(parameters)))

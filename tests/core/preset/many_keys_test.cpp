@@ -75,17 +75,11 @@ TEST(ManyKeys, hideNoErrorBehindThem) {
 
 TEST(ManyKeys, thatAreRefusedAreCountedToo) {
   const auto same = [](std::size_t) { return std::string("lod.scale"); };
-  const auto old = [](std::size_t) { return std::string("fuzzy.rules.low_down_weight"); };
   for (const std::string format : kLanguages) {
     const auto read = parsePreset(presetOf(format, 3001, same), "p");
     ASSERT_FALSE(read);
     EXPECT_EQ(toString(read.findings().back()), "p: found 2,980 more errors") << format;
   }
-  std::string former = presetOf("json", 3001, old);
-  former.replace(former.find("\"version\": 3"), 12, "\"version\": 2");
-  const auto notes = parsePreset(former, "p");
-  ASSERT_TRUE(notes) << toString(notes.findings());
-  EXPECT_EQ(toString(notes.findings().back()), "p: found 2,981 more notes");
   const auto bands = [](std::size_t i) { return "[section" + std::to_string(i) + "]\nx"; };
   EXPECT_EQ(toString(parsePreset(presetOf("ini", 3000, bands), "p").findings().back()),
             "p: found 2,980 more errors");

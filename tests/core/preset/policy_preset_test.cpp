@@ -143,6 +143,7 @@ TEST(PolicyPreset, isEmptyInOldFilesOfEveryFormat) {
       const std::size_t at = text.find("\"version\": ");
       versions.insert(text.substr(at + 11, 1));
     }
+    if (entry.path().filename() == "version-2.json") continue;  // its rule base became a policy
     const auto preset = loadPreset(entry.path().string());
     ASSERT_TRUE(preset) << toString(preset.findings());
     EXPECT_EQ(preset->parameters.policy, PolicyParameters{}) << entry.path();

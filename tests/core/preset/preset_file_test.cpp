@@ -70,7 +70,6 @@ TEST(PresetFile, doesNotDependOnTheLocale) {
 TEST(PresetFile, keepsANegativeZero) {
   Preset preset;
   preset.parameters.pitch.curve = {{-0.0, 1}, {30, -0.0}};
-  preset.parameters.scheme.rules.rule[3].output = -0.0;
   const auto back = parsePreset(*presetText(preset), "memory");
   ASSERT_TRUE(back);
   EXPECT_TRUE(sameBits(back->parameters, preset.parameters));
@@ -166,22 +165,6 @@ TEST(PresetFile, readsAnOldVersionAndSaysWhatChanged) {
   EXPECT_THAT(*presetText(*preset), HasSubstr("\"version\": 3"));
 }
 
-TEST(PresetFile, readsTheFixedRulesOfVersion2) {
-  const auto preset = loadPreset((data() / "old/version-2.json").string());
-  ASSERT_TRUE(preset) << toString(preset.findings());
-  RuleList expected = kRuleBase;
-  expected.rule[1].output = 1.25;
-  expected.rule[2].weight = 0.3;
-  EXPECT_EQ(preset->parameters.scheme.rules, expected);
-  EXPECT_EQ(preset->parameters.lod.scale.value(), 2);
-  ASSERT_EQ(preset.findings().size(), 2u);
-  for (const Finding& f : preset.findings()) EXPECT_EQ(f.severity, Severity::note);
-  EXPECT_EQ(preset.findings()[1].key, "fuzzy.rules.high_down_weight");
-  EXPECT_TRUE(preset->unknown.empty());
-  EXPECT_THAT(*presetText(*preset), HasSubstr("\"version\": 3"));
-  EXPECT_THAT(*presetText(*preset), Not(HasSubstr("high_down_weight")));
-}
-
 TEST(PresetFile, readsAWithdrawnWayToHiddenGroundAsTheDepthMap) {
   const auto preset = loadPreset((data() / "old/version-3-read-back.json").string());
   ASSERT_TRUE(preset) << toString(preset.findings());
@@ -195,47 +178,6 @@ TEST(PresetFile, readsAWithdrawnWayToHiddenGroundAsTheDepthMap) {
   EXPECT_THAT(*presetText(*preset), HasSubstr("\"depth_map\""));
 }
 
-std::string version2With(const std::string& parameters, const std::string& members = "") {
-  std::string text = presetWith(parameters, members);
-  return text.replace(text.find("\"version\": 3"), 12, "\"version\": 2");
-}
-
-TEST(PresetFile, takesWhatVersion2LeavesOutFromItsBase) {
-  const test::ScratchDir dir;
-  test::writeFile(dir / "base.json",
-                  presetWith("\"fuzzy.rules\": [{\"weight\": 2, \"output\": 1.5}, {\"altitude\": "
-                             "\"low\", \"pitch\": \"up\", \"weight\": 3, \"output\": 0.9}]"));
-  test::writeFile(dir / "top.json",
-                  version2With("\"fuzzy.rules.low_up_output\": 0.8,\n    \"fuzzy.rules.high_down_weight\": 4",
-                               "  \"base\": \"base.json\",\n"));
-  const auto preset = loadPreset((dir / "top.json").string());
-  ASSERT_TRUE(preset) << toString(preset.findings());
-  EXPECT_EQ(toText(*findRow("fuzzy.rules"), preset->parameters.scheme.rules),
-            "any*2=1.5 low&up*3=0.8 high&down*4=0.5");
-}
-
-TEST(PresetFile, refusesAVersion2RuleThatIsNoNumber) {
-  const auto preset = parsePreset(version2With("\"fuzzy.rules.low_up_output\": \"x\""), "p.json");
-  ASSERT_FALSE(preset);
-  ASSERT_EQ(preset.findings().size(), 1u);
-  EXPECT_EQ(toString(preset.findings()[0]),
-            "p.json:6: fuzzy.rules.low_up_output: expected a number, found \"x\"");
-}
-
-TEST(PresetFile, reportsAVersion2RuleOutsideItsRangeWhereItStands) {
-  const auto preset = parsePreset(version2With("\"fuzzy.rules.high_up_weight\": -1"), "p.json");
-  ASSERT_FALSE(preset);
-  EXPECT_EQ(preset.findings().back().where, "p.json:6");
-  EXPECT_THAT(preset.findings().back().found, HasSubstr("-1 in rule 4 (high and up)"));
-}
-
-TEST(PresetFile, takesAConditionThatARuleLeavesOutAsAny) {
-  const auto preset = parsePreset(presetWith("\"fuzzy.rules\": [{\"output\": 1, \"weight\": 2}]"), "p.json");
-  ASSERT_TRUE(preset) << toString(preset.findings());
-  EXPECT_EQ(preset->parameters.scheme.rules.rule[0],
-            (FuzzyRule{AltitudeCondition::any, PitchCondition::any, 2, 1}));
-}
-
 TEST(PresetFile, andAnExportKeptFromItMeanTheSame) {
   const auto preset = loadPreset((data() / "good/everything.json").string());
   const auto exported = loadPreset((data() / "good/export.json").string());
@@ -246,7 +188,6 @@ TEST(PresetFile, andAnExportKeptFromItMeanTheSame) {
 
 TEST(PresetFile, readsAnExportOfVersion2) {
   TuningParameters expected = loadPreset((data() / "good/everything.json").string())->parameters;
-  expected.scheme.rules = kRuleBase;
   const auto exported = loadPreset((data() / "old/export-version-2.json").string());
   ASSERT_TRUE(exported) << toString(exported.findings());
   for (const ParameterRow& row : parameterRows())
@@ -291,8 +232,8 @@ constexpr Bad kBad[] = {
     {"base-folder", ":4", "base", "a preset file", ".."},
     {"base-itself", ":4", "base", "a preset file", "base-itself.json"},
     {"base-missing", ":4", "base", "a preset file", "nowhere.json"},
-    {"choice-as-number", ":6", "fuzzy.combination", "\"sum\", \"twice_minimum\", \"rules\"", "1"},
-    {"choice-unknown", ":6", "fuzzy.combination", "\"sum\", \"twice_minimum\", \"rules\"", "average"},
+    {"choice-as-number", ":6", "fuzzy.combination", "\"sum\", \"twice_minimum\"", "1"},
+    {"choice-unknown", ":6", "fuzzy.combination", "\"sum\", \"twice_minimum\"", "average"},
     {"comment", ":6", "", "JSON", "invalid literal"},
     {"curve-beyond-vertical", ":6", "fuzzy.pitch.curve_deg", "-90 to 90", "-100"},
     {"curve-falling", ":6", "fuzzy.altitude.curve_ft", "rising order", "point 2 at 4000 ft after 5000 ft"},
@@ -314,7 +255,6 @@ constexpr Bad kBad[] = {
     {"near-zero", ":6", "view.near_m", "0.001 to 1000 m", "0 m"},
     {"no-format", ":1", "format", "trimtab-preset", "none"},
     {"no-parameters", ":1", "parameters", "an object", "none"},
-    {"no-rule-counts", ":6", "fuzzy.rules", "above 0", "0 for all 2"},
     {"no-version", ":1", "version", "from 1 to 3", "none"},
     {"not-a-number", ":6", "", "JSON", "invalid literal"},
     {"not-json", ":1", "", "JSON", "invalid literal"},
@@ -354,15 +294,6 @@ constexpr Bad kBad[] = {
     {"policy-weight-missing", ":6", "policy.rules", "a weight after with", "nothing in line 1"},
     {"policy-weight-negative", ":6", "policy.rules", "a weight from 0 to 1", "-0.5 in rule 1"},
     {"policy-weight-not-a-number", ":6", "policy.rules", "a weight from 0 to 1", "nan in rule 1"},
-    {"rule-condition-unknown", ":6", "fuzzy.rules", "\"low\", \"high\" or \"any\"", "\"middle\""},
-    {"rule-input-unknown", ":6", "fuzzy.rules", "as rule 2", "\"roll\": \"left\""},
-    {"rule-none", ":6", "fuzzy.rules", "1 to 16 rules", "0"},
-    {"rule-output-above-two", ":6", "fuzzy.rules", "outputs of 0 to 2", "2.5 in rule 2 (high)"},
-    {"rule-output-missing", ":6", "fuzzy.rules", "\"output\": number", "{\"weight\": 1}"},
-    {"rule-too-many", ":6", "fuzzy.rules", "at most 16", "17"},
-    {"rule-weight-as-text", ":6", "fuzzy.rules", "\"weight\": number", "\"1\""},
-    {"rule-weight-negative", ":6", "fuzzy.rules", "weights of 0 to 1000", "-1 in rule 1 (low and down)"},
-    {"rules-not-list", ":6", "fuzzy.rules", "a list of rules", "{}"},
     {"scale-too-large", ":6", "lod.scale", "0.05 to 100", "101"},
     {"trailing-comma", ":7", "", "JSON", "unexpected '}'"},
     {"truncated", ":6", "", "JSON", "missing closing quote"},

@@ -59,14 +59,6 @@ class RandomParameters {
                                       16 + static_cast<int>(below(8000))};
         return bands;
       }
-      case Kind::rules: {
-        RuleList rules;
-        for (std::size_t left = 1 + below(RuleList::kCapacity); left > 0; --left)
-          rules.rule[rules.size++] = {static_cast<AltitudeCondition>(below(3)),
-                                      static_cast<PitchCondition>(below(3)),
-                                      between(row.hard.low, row.hard.high), between(0, BandList::kTop)};
-        return rules;
-      }
       case Kind::lines: {
         TextLines lines;
         const bool terms = row.key == "policy.terms";
@@ -102,12 +94,6 @@ inline bool sameBits(const ParameterValue& a, const ParameterValue& b) {
     const auto& y = std::get<BandList>(b);
     for (std::size_t i = 0; i < x->size; ++i)
       if (!sameBits(x->band[i].low, y.band[i].low)) return false;
-  }
-  if (const auto* x = std::get_if<RuleList>(&a)) {
-    const auto& y = std::get<RuleList>(b);
-    for (std::size_t i = 0; i < x->size; ++i)
-      if (!sameBits(x->rule[i].weight, y.rule[i].weight) || !sameBits(x->rule[i].output, y.rule[i].output))
-        return false;
   }
   return true;
 }

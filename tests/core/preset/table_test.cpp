@@ -36,7 +36,6 @@ TEST(ParameterTable, hasTheKeysThatFilesAndScriptsRelyOn) {
                                             "fuzzy.combination",
                                             "fuzzy.hysteresis",
                                             "fuzzy.bands_px",
-                                            "fuzzy.rules",
                                             "culling.case",
                                             "lod.screen_space_error_px",
                                             "lod.scale",
@@ -89,7 +88,7 @@ constexpr auto kScale = table::row<&TuningParameters::lod, &LodParameters::scale
     {.key = "lod.scale", .label = "l", .help = "h", .hard = {0, 9}, .usual = {0, 9}});
 constexpr auto kError = table::row<&TuningParameters::lod, &LodParameters::screenSpaceError>(
     {.key = "lod.error_px", .label = "l", .help = "h", .hard = {0, 9}, .usual = {0, 9}});
-static_assert(table::fieldCount<AltitudeParameters>() == 6 && table::fieldCount<SchemeParameters>() == 4);
+static_assert(table::fieldCount<AltitudeParameters>() == 6 && table::fieldCount<SchemeParameters>() == 3);
 static_assert(table::fieldCount<ViewParameters>() == 7 && table::fieldCount<TuningParameters>() >= 8);
 static_assert(!table::everyFieldHasOneRow(kComplete));
 static_assert(table::keysAreOrderly(std::array{kScale, kError, kComplete[0]}));

@@ -166,16 +166,5 @@ TEST(Validation, asksTheMaximumOnlyOfEquations) {
       "fuzzy.altitude.maximum_ft: expected at least 8000 ft, the altitude curve's last point, found 7999 ft");
 }
 
-TEST(Validation, needsOneRuleThatCounts) {
-  const auto none = [](TuningParameters& p) {
-    for (FuzzyRule& rule : p.scheme.rules.rule) rule.weight = 0;
-  };
-  EXPECT_EQ(findingsAfter(none).size(), 1u);
-  EXPECT_TRUE(findingsAfter([&](auto& p) {
-                none(p);
-                p.scheme.rules.rule[3].weight = 0.001;
-              }).empty());
-}
-
 }  // namespace
 }  // namespace trimtab

@@ -16,7 +16,6 @@
 #include "policy_flight.h"
 #include "tests/views/application.h"
 #include "views/editors/membership_editor.h"
-#include "views/panels/rules_panel.h"
 #include "views/plots/surface_plot.h"
 #include "views/policy/findings_page.h"
 #include "views/policy/lever_surface.h"
@@ -95,8 +94,6 @@ TEST_F(PolicyPanelTest, withoutAPolicyItSaysWhatOneIsAndStartsOne) {
 TEST_F(PolicyPanelTest, theSchemeOfDocumentsAAndBIsTheFirstEntry) {
   EXPECT_TRUE(parts().scheme->isVisible());
   EXPECT_TRUE(parts().scheme->memberships().isVisible());
-  panel_.showEditorOf("fuzzy.rules");
-  EXPECT_TRUE(parts().scheme->rules().isVisible());
   parts().scheme->showSurface();
   EXPECT_TRUE(parts().scheme->surface().isVisible());
   useSmallPolicy();

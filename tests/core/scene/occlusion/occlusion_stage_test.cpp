@@ -18,8 +18,7 @@ namespace trimtab {
 namespace {
 
 constexpr std::array kMethods{OcclusionMethod::automatic, OcclusionMethod::depth_map,
-                              OcclusionMethod::cpu_map, OcclusionMethod::horizon,
-                              OcclusionMethod::horizon_and_map};
+                              OcclusionMethod::cpu_map, OcclusionMethod::horizon};
 
 std::shared_ptr<const terrain::Database> patchedMountains() {
   static const auto terrain = [] {
@@ -96,8 +95,7 @@ TEST_F(OcclusionStage, hidesNothingFromUnderTheGroundAndSaysSo) {
 TEST_F(OcclusionStage, keepsTheVisibleSetWhileNothingInItCanChange) {
   for (const bool patches : {false, true}) {
     use(patches ? patchedMountains() : test::syntheticMountains());
-    for (const OcclusionMethod method :
-         {OcclusionMethod::cpu_map, OcclusionMethod::horizon, OcclusionMethod::horizon_and_map}) {
+    for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::horizon}) {
       auto r = low(40, method);
       FrameResult first, second, third;
       const auto drawn = picture(r, &first);
@@ -192,8 +190,7 @@ TEST_F(OcclusionStage, drawsNoMapNearWhereOneHidNextToNothing) {
 
 TEST_F(OcclusionStage, tellsOnlyOfMapsAndHorizonsOfThisPicture) {
   for (const bool patches : {false, true})
-    for (const OcclusionMethod method :
-         {OcclusionMethod::cpu_map, OcclusionMethod::horizon, OcclusionMethod::horizon_and_map}) {
+    for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::horizon}) {
       use(patches ? patchedMountains() : test::syntheticMountains());
       const bool horizon = method != OcclusionMethod::cpu_map, map = method != OcclusionMethod::horizon;
       const auto tells = [&](const FrameRequest& r, bool ofHorizon, bool ofMap, const char* what) {
@@ -232,18 +229,15 @@ TEST_F(OcclusionStage, saysThatACliffHasNoHorizon) {
   for (std::uint32_t post = 0; post < 129 * 129; ++post)
     grid.heights.push_back(post % 129 > 110 ? 3000.0f : 0.0f);
   use(std::make_shared<const test::PatchedTerrain>(std::move(grid)));
-  for (const OcclusionMethod method : {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map}) {
-    auto r = low(90, method);
-    r.eye = over(0.5, 0.5, 30);
-    FrameResult result;
-    EXPECT_EQ(lost(r, &result), 0u);
-    picture(r, &result);
-    EXPECT_FALSE(result.horizon);
-    EXPECT_TRUE(renderer.readHorizon(8).empty());
-    EXPECT_EQ(result.occlusion, method == OcclusionMethod::horizon ? std::optional<OcclusionMethod>{}
-                                                                   : OcclusionMethod::cpu_map);
-    EXPECT_THAT(result.note, testing::EndsWith("there is no horizon."));
-  }
+  auto r = low(90, OcclusionMethod::horizon);
+  r.eye = over(0.5, 0.5, 30);
+  FrameResult result;
+  EXPECT_EQ(lost(r, &result), 0u);
+  picture(r, &result);
+  EXPECT_FALSE(result.horizon);
+  EXPECT_TRUE(renderer.readHorizon(8).empty());
+  EXPECT_FALSE(result.occlusion);
+  EXPECT_THAT(result.note, testing::EndsWith("there is no horizon."));
 }
 
 /// A head that turns at 200 degrees a second in an aircraft at 600 kt, which is put elsewhere now and then.

@@ -79,8 +79,7 @@ class Looking {
 };
 
 TEST(SurfaceShare, aFrameMakesFewAndInTheEndAsMuchIsHidden) {
-  for (const OcclusionMethod method :
-       {OcclusionMethod::horizon, OcclusionMethod::horizon_and_map, OcclusionMethod::cpu_map}) {
+  for (const OcclusionMethod method : {OcclusionMethod::horizon, OcclusionMethod::cpu_map}) {
     Looking atOnce(method, true), shared(method, false);
     const std::vector<std::uint8_t> all = atOnce.frame();
     const auto most = std::count(all.begin(), all.end(), 1);
@@ -110,7 +109,7 @@ TEST_F(SharedScene, drawsWhateverIsVisibleWhileSurfacesAreMade) {
   for (const bool patches : {false, true}) {
     const std::shared_ptr<const terrain::Database> tiles = test::syntheticMountains();
     use(patches ? test::patchedMountains(false) : tiles);
-    for (const OcclusionMethod method : {OcclusionMethod::horizon_and_map, OcclusionMethod::cpu_map}) {
+    for (const OcclusionMethod method : {OcclusionMethod::cpu_map}) {
       std::size_t hidden = 0;
       for (int frame = 0; frame < 40; ++frame) {
         if (frame == 0) renderer.setTerrain(database);  // forgets its surfaces

@@ -7,7 +7,6 @@
 
 #include "trimtab/frame/motion_decision.h"
 #include "trimtab/frame/policy_outcome.h"
-#include "trimtab/frame/rule_firing.h"
 #include "trimtab/frame/weather_decision.h"
 #include "trimtab/policy/signals.h"
 #include "trimtab/preset/parameters.h"
@@ -126,7 +125,6 @@ enum class SchemeReason {
   below_first_band,    ///< total under the lowest edge: view frustum alone
   in_band,             ///< the band that holds the total
   held_by_hysteresis,  ///< the total left the band by less than the hysteresis
-  no_rule_fires,       ///< the rule base yields nothing
   invalid_input,       ///< altitude or pitch is not a finite number: frustum
   altitude_unknown     ///< the preset asks for the height above ground, and neither host nor terrain knows it
 };
@@ -142,7 +140,6 @@ struct FrameDecision {
   double altitudeFt = 0;  ///< the altitude that was used, by reference
   double pitchDeg = 0;
   double altitudeMembership = 0, pitchMembership = 0, totalMembership = 0;
-  RuleFiring ruleFiring;
   Scheme scheme = Scheme::frustum;
   int band = -1;  ///< index into the bands; -1 if the total is below all of them
   std::optional<OcclusionResolution> occlusionResolution;  ///< if unset, no occlusion test of any kind

@@ -29,7 +29,6 @@ struct HoldGiven {
   double timeS = 0;  ///< on the clock of the states
   double budgetMs = 0;
   HeldLevers asked;            ///< by preset and policy
-  double unseenPx = 0;         ///< errorInMotion() of the error that is asked for: up to it nothing is lost
   double particles = 0;        ///< amount of what falls (fallsNow) times asked.particleShare
   bool blurs = false;          ///< head motion asks for blur
   double imageMpx = 0;         ///< millions of pixels of the image
@@ -75,19 +74,6 @@ double trianglesAt(const TriangleLadder& ladder, double askedPx, double errorPx)
 
 /// Returns the load of an image under these levers.
 FrameLoad loadOf(const HoldGiven& given, const HeldLevers& levers, double triangles);
-
-/// Returns the smear, pixels: the way of a point at the image's centre during the exposure, while the line of
-/// sight turns.
-double smearPx(double degreesPerS, double exposureMs, double pixelsPerRadian);
-
-/// Returns the error that may be allowed while the line of sight turns, pixels: sqrt(E max(E, m)), where E is
-/// the error allowed at rest and m the smear.
-///
-/// A displacement of e pixels changes a strip e wide by its whole contrast. Averaged along a smear of m > e
-/// pixels it changes a strip m wide by e / m of the contrast, so its squared error falls from e to e^2 / m.
-/// That is as much as E changes at rest if e^2 / m = E. Edges along the motion are not smeared. A test in
-/// tests/core/hold averages such a strip. Rates and exposures that are not numbers count as 0.
-double errorInMotion(double errorPx, double degreesPerS, double exposureMs, double pixelsPerRadian);
 
 /// What lowering one lever takes off an image, and what the image loses by it.
 struct LeverGain {

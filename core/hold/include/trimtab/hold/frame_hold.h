@@ -34,10 +34,8 @@ class FrameHold {
   void setIndex(std::shared_ptr<const LoadIndex> index);
 
   /// Gathers what the arbitration of a request depends on. `coming` are the eyes of the next images, the
-  /// nearest first, and `outcomesAhead` of them counts for outcome(). `budgetMs` is the preset's, and
-  /// `unseenPx` the error that motion hides.
-  HoldGiven look(const FrameRequest& request, std::span<const ComingEye> coming, double budgetMs,
-                 double unseenPx);
+  /// nearest first, and `outcomesAhead` of them counts for outcome(). `budgetMs` is the preset's.
+  HoldGiven look(const FrameRequest& request, std::span<const ComingEye> coming, double budgetMs);
   /// Decides, and writes the levers into the request.
   HoldDecision decide(const HoldGiven& given, const HoldParameters& parameters, FrameRequest& request);
   /// Writes what was decided before, perhaps on another machine, into the request, and returns it.

@@ -47,7 +47,8 @@ inline constexpr double kPresetsOwn = std::numeric_limits<double>::quiet_NaN();
 
 // Rates: a lever crosses its usual range in about half a second, so that no image shows a jump; the blur,
 // which lives for tenths of a second, is faster. Dead bands are a twentieth of an octave or less, which is
-// below the difference in triangles that a still picture shows.
+// below the difference in triangles that a still picture shows. Occlusion has neither: the bands that it
+// chooses have a hysteresis, and no size of a depth map is seen.
 inline constexpr std::array kLeverRows{
     LeverRow{Lever::occlusion,
              "occlusion",
@@ -58,8 +59,8 @@ inline constexpr std::array kLeverRows{
              {0, 2},
              CostOf::either,
              false,
-             4,
-             0.01,
+             std::numeric_limits<double>::infinity(),
+             0,
              "the total on the scale of the bands, which choose the scheme and the resolution of occlusion"},
     LeverRow{Lever::screen_space_error,
              "screen_space_error",
@@ -173,7 +174,7 @@ constexpr bool leverRowsAreInOrder() {
     if (!(row.hard.low <= row.usual.low && row.usual.low < row.usual.high && row.usual.high <= row.hard.high))
       return false;
     if (row.neutral < row.hard.low || row.neutral > row.hard.high) return false;
-    if (!(row.ratePerS > 0) || !(row.deadBand > 0) || (row.logarithmic && !(row.hard.low > 0))) return false;
+    if (!(row.ratePerS > 0) || !(row.deadBand >= 0) || (row.logarithmic && !(row.hard.low > 0))) return false;
   }
   return true;
 }

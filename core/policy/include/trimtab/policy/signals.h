@@ -24,7 +24,9 @@ enum class Signal : std::uint8_t {
   visibility,
   precipitation,
   load,
-  triangles
+  triangles,
+  altitude_membership,
+  pitch_membership
 };
 
 struct SignalRow {
@@ -135,6 +137,22 @@ inline constexpr std::array kSignalRows{
               0,
               "of the last image",
               "no image is finished"},
+    SignalRow{Signal::altitude_membership,
+              "altitude_membership",
+              "Altitude membership",
+              "",
+              {0, 1},
+              0,
+              "the culling scheme's membership of the altitude: 1 is low",
+              "the altitude that the scheme asks for is unknown"},
+    SignalRow{Signal::pitch_membership,
+              "pitch_membership",
+              "Pitch membership",
+              "",
+              {0, 1},
+              0,
+              "the culling scheme's membership of the pitch: 1 is nose down",
+              "the altitude that the scheme asks for is unknown"},
 };
 inline constexpr std::size_t kSignals = kSignalRows.size();
 
@@ -171,7 +189,7 @@ constexpr bool signalRowsAreInOrder() {
   }
   return true;
 }
-static_assert(signalRowsAreInOrder() && static_cast<std::size_t>(Signal::triangles) + 1 == kSignals);
+static_assert(signalRowsAreInOrder() && static_cast<std::size_t>(Signal::pitch_membership) + 1 == kSignals);
 }  // namespace detail
 
 }  // namespace trimtab

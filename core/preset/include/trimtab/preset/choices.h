@@ -28,8 +28,7 @@ struct ChoicesOf<PitchReading> {
 };
 template <>
 struct ChoicesOf<Combination> {
-  static constexpr ChoiceOption options[] = {
-      {"sum", "Sum"}, {"twice_minimum", "Twice the smaller"}, {"rules", "Rule base"}};
+  static constexpr ChoiceOption options[] = {{"sum", "Sum"}, {"twice_minimum", "Twice the smaller"}};
 };
 template <>
 struct ChoicesOf<PolicyNorm> {
@@ -46,8 +45,7 @@ struct ChoicesOf<OcclusionMethod> {
   static constexpr ChoiceOption options[] = {{"auto", "Automatic (fastest here)"},
                                              {"depth_map", "Depth map (published)"},
                                              {"cpu_map", "Depth map by the processor"},
-                                             {"horizon", "Horizon"},
-                                             {"horizon_and_map", "Horizon, then depth map"}};
+                                             {"horizon", "Horizon"}};
 };
 template <>
 struct ChoicesOf<ViewSource> {

@@ -24,6 +24,9 @@ struct Member {
 /// `whole`, which must have passed checkSyntax. Returns nothing if it is no object.
 std::vector<Member> members(std::string_view object, std::string_view whole);
 
+/// Returns the elements of an array that passed checkSyntax.
+std::vector<std::string_view> elements(std::string_view array);
+
 bool isObject(std::string_view value);
 /// Returns the string that a JSON string stands for; nothing if the value is no string.
 std::optional<std::string> readString(std::string_view value);
@@ -31,8 +34,7 @@ std::optional<std::string> readString(std::string_view value);
 std::string stringText(std::string_view text);
 
 /// Returns the value of a parameter as JSON text on one line: number, true, "choice", [[x, y], ...], [[low,
-/// width, height], ...],
-/// [{"altitude": "low", ...}, ...].
+/// width, height], ...], ["line", ...].
 std::string valueText(const ParameterRow& row, const ParameterValue& value);
 /// Is the inverse, from text that passed checkSyntax. Its finding has neither place nor key.
 Result<ParameterValue> readValue(const ParameterRow& row, std::string_view value);

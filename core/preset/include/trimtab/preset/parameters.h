@@ -2,7 +2,6 @@
 
 #include "trimtab/policy/policy.h"
 #include "trimtab/preset/curve.h"
-#include "trimtab/preset/rule_list.h"
 #include "trimtab/preset/symbology_parameters.h"
 #include "trimtab/units/quantity.h"
 
@@ -17,11 +16,11 @@ enum class AltitudeReference { mean_sea_level, above_ground };
 /// How pitch becomes a membership: the line, or the rounded step that reproduces Table 1.
 enum class PitchReading { linear, rounded_step };
 /// How the two memberships become the total on the scale 0..2.
-enum class Combination { sum, twice_minimum, rules };
+enum class Combination { sum, twice_minimum };
 /// The three culling cases of documents A and B.
 enum class CullingCase { none, view_frustum, proposed };
 /// What looks for hidden ground if the scheme is dynamic.
-enum class OcclusionMethod { automatic, depth_map, cpu_map, horizon, horizon_and_map };
+enum class OcclusionMethod { automatic, depth_map, cpu_map, horizon };
 /// Where the field of view and the near plane come from.
 enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };
@@ -65,12 +64,6 @@ inline constexpr BandList kDepthMapBands{{0.1, 320, 240}, {0.5, 400, 300}, {1.0,
 /// precipitation.
 inline constexpr Curve<Ratio> kSeverityDensity{{0, 0.1}, {1, 0.25}, {3, 0.5}, {5, 1.0}};
 
-/// Four rules, whose outputs are what the bands of the sum suggest for these corners.
-inline constexpr RuleList kRuleBase{{AltitudeCondition::low, PitchCondition::nose_down, 1, 2},
-                                    {AltitudeCondition::low, PitchCondition::nose_up, 1, 1},
-                                    {AltitudeCondition::high, PitchCondition::nose_down, 1, 0.5},
-                                    {AltitudeCondition::high, PitchCondition::nose_up, 1, 0}};
-
 struct AltitudeParameters {
   AltitudeReading reading = AltitudeReading::table;
   AltitudeReference reference = AltitudeReference::mean_sea_level;
@@ -91,7 +84,6 @@ struct SchemeParameters {
   Combination combination = Combination::sum;
   Membership hysteresis{0.05};
   BandList bands = kDepthMapBands;
-  RuleList rules = kRuleBase;  ///< used by Combination::rules
 };
 
 struct CullingParameters {
@@ -237,7 +229,6 @@ struct HoldParameters {
   Ratio lossRenderScale{0.022};
   Ratio lossParticles{0.011};
   Ratio lossBlur{0};
-  Milliseconds exposure{0};  ///< how long an image is held; 0: no error is hidden by motion
 };
 
 struct MeasureParameters {

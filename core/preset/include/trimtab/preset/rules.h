@@ -57,27 +57,6 @@ constexpr BandCheck checkBands(const BandList& bands, Range size) {
   return {};
 }
 
-enum class RuleFlaw { none, count, not_a_number, condition, weight, output };
-
-struct RuleCheck {
-  RuleFlaw flaw = RuleFlaw::none;
-  std::size_t at = 0;
-};
-
-constexpr RuleCheck checkRules(const RuleList& rules, Range weight) {
-  if (rules.size < 1 || rules.size > RuleList::kCapacity) return {RuleFlaw::count, rules.size};
-  for (std::size_t i = 0; i < rules.size; ++i) {
-    const FuzzyRule& r = rules.rule[i];
-    if (!isFinite(r.weight) || !isFinite(r.output)) return {RuleFlaw::not_a_number, i};
-    if (static_cast<std::size_t>(r.altitude) >= kAltitudeConditions.size() ||
-        static_cast<std::size_t>(r.pitch) >= kPitchConditions.size())
-      return {RuleFlaw::condition, i};
-    if (r.weight < weight.low || r.weight > weight.high) return {RuleFlaw::weight, i};
-    if (r.output < 0 || r.output > BandList::kTop) return {RuleFlaw::output, i};
-  }
-  return {};
-}
-
 /// Returns the width of the narrowest band; the last one ends at the scale's top.
 constexpr double narrowestBand(const BandList& bands) {
   double narrowest = BandList::kTop;
@@ -100,12 +79,6 @@ constexpr bool maximumCoversCurve(const TuningParameters& p) {
   return p.altitude.reading == AltitudeReading::table || curve.size == 0 ||
          p.altitude.maximum.value() >= curve.point[curve.size - 1].x;
 }
-constexpr bool someRuleCounts(const TuningParameters& p) {
-  for (const FuzzyRule& rule : p.scheme.rules.span())
-    if (rule.weight > 0) return true;
-  return false;
-}
-
 /// If it did not hold, every frame that moves at all would be fast.
 constexpr bool someFieldOfViewIsLeft(const TuningParameters& p) {
   return (p.motion.leftFov + p.motion.rightFov).value() > 0;

@@ -16,17 +16,17 @@ namespace trimtab {
 
 class CompiledPolicy;
 
-enum class Kind { scalar, flag, choice, curve, bands, rules, lines };
+enum class Kind { scalar, flag, choice, curve, bands, lines };
 enum class Tier { basic, advanced };
 /// From when on a changed parameter counts.
 enum class Effect { next_frame, resize, host };
 
-/// A value of any row: scalar, flag, index into the row's choices, curve, bands, rules or lines of text.
+/// A value of any row: scalar, flag, index into the row's choices, curve, bands or lines of text.
 struct ChoiceIndex {
   std::size_t index = 0;
   friend constexpr bool operator==(ChoiceIndex, ChoiceIndex) = default;
 };
-using ParameterValue = std::variant<double, bool, ChoiceIndex, CurvePoints, BandList, RuleList, TextLines>;
+using ParameterValue = std::variant<double, bool, ChoiceIndex, CurvePoints, BandList, TextLines>;
 
 struct ChoiceOption {
   std::string_view name;   ///< as files spell it
@@ -60,8 +60,8 @@ std::span<const ParameterRow> parameterRows();
 const ParameterRow* findRow(std::string_view key);
 
 /// Returns a value as text in the C locale: a number in the shortest form that reads back bit for bit, a
-/// choice by its name, a curve as "4000:1 5000:0.6", bands as "0.1:320x240 0.5:400x300", rules as
-/// "low&down*1=2 high*0.5=0", lines with " | " between.
+/// choice by its name, a curve as "4000:1 5000:0.6", bands as "0.1:320x240 0.5:400x300", lines
+/// with " | " between.
 std::string toText(const ParameterRow& row, const ParameterValue& value);
 /// Is the inverse; findings say what was expected. A scalar may have a unit ("4000 ft"), which is converted
 /// to the row's if both have the same dimension. It refuses numbers that are not finite; validate() checks

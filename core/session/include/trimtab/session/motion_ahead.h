@@ -8,8 +8,7 @@
 
 namespace trimtab {
 
-/// Extrapolates the eye from image to image: where it will be in the next images, and how fast the line of
-/// sight turns.
+/// Extrapolates the eye from image to image: where it will be in the next images.
 class MotionAhead {
  public:
   static constexpr std::size_t kMostImages = 30;
@@ -20,14 +19,11 @@ class MotionAhead {
   /// Returns the eyes of the next `images` images, at most kMostImages, nearest first, if the eye moves on as
   /// it did since the last image; none if no motion is known. They stay valid until the next call.
   std::span<const ComingEye> coming(std::size_t images);
-  /// Returns the rate of the line of sight, degrees per second; 0 if it is not known.
-  double sightDegPerS() const { return rate_; }
 
  private:
   std::optional<double> timeS_;
   ComingEye last_, step_;  ///< `step_`: differences from image to image
   bool moves_ = false;
-  double rate_ = 0;
   std::vector<ComingEye> coming_;
 };
 
