@@ -48,7 +48,7 @@ Result<TuningParameters> readPolicy(std::string_view text, const std::string& wh
 }
 constexpr Part kPolicy{policyText, readPolicy};
 
-/// By --format, else by the file's ending.
+/// Returns the format that --format names, else that of the file's ending.
 std::optional<RuleFormat> formatOf(const FuzzyOptions& options, const std::string& file) {
   if (!options.format.empty()) return options.format == "fis" ? RuleFormat::matlab : RuleFormat::fuzzylite;
   const auto format = ruleFormatOf(file);

@@ -13,7 +13,7 @@
 #include "trimtab/policy/levers.h"
 #include "trimtab/policy/signals.h"
 
-/// What each lever of a policy is worth over a flight: milliseconds won against image lost.
+/// Measures what each lever of a policy is worth over a flight: milliseconds won against image lost.
 namespace trimtab::experiment {
 
 /// A median over the frames with the interval that holds the true one with 95 % confidence; ends that are NaN
@@ -46,7 +46,7 @@ struct Leverage {
   std::string machine, flight, terrain, preset;
   std::size_t frames = 0;
   int widthPx = 0, heightPx = 0, repeats = 0;
-  /// What other programs took of the machine meanwhile, 0 to 1; NaN: unknown.
+  /// Share of the machine that other programs used meanwhile, 0 to 1; NaN: unknown.
   double othersShare = std::numeric_limits<double>::quiet_NaN();
 };
 

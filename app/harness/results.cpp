@@ -71,7 +71,7 @@ const Unit* unitOf(const std::vector<Unit>& units, const UnitName& name) {
   return at == units.end() ? nullptr : &*at;
 }
 
-/// A cell that spreadsheets take as one.
+/// Returns a cell that spreadsheets read as one.
 std::string cellText(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";

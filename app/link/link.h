@@ -28,7 +28,7 @@ Result<Endpoint> parseEndpoint(const std::string& text);
 /// Unless told otherwise, nobody on the network reaches a receiver.
 inline constexpr const char *kOwnMachine = "127.0.0.1", *kAnyone = "any", *kFirst = "first";
 
-/// Who may send to a receiver, who sends, and who tried without being allowed.
+/// Says who may send to a receiver, who sends, and who tried without being allowed.
 struct Senders {
   std::string allowed;         ///< an address, kAnyone, or kFirst before the first
   std::uint64_t refused = 0;   ///< datagrams

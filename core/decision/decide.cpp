@@ -14,8 +14,8 @@
 namespace trimtab {
 namespace {
 
-/// The nearest double to the height in feet, except that a height which is a whole number of feet comes back
-/// as that number: breakpoints are whole feet, and the equation readings jump there.
+/// Returns the nearest double to the height in feet, except that a height which is a whole number of feet
+/// comes back as that number: breakpoints are whole feet, and the equation readings jump there.
 double toFeet(Metres height) {
   const double feet = height.value() / unit::Foot::size;
   const double whole = std::round(feet);
@@ -40,7 +40,7 @@ std::string bandText(const BandList& bands, int band) {
                    top ? "]" : ")");
 }
 
-/// The rules that fire, by how far: "low-down 0.3, high-down 0.7".
+/// Names the rules that fire, by how far: "low-down 0.3, high-down 0.7".
 std::string firingText(const RuleList& rules, const RuleFiring& firing) {
   std::string text;
   for (std::size_t i = 0; i < firing.count; ++i) {
@@ -63,8 +63,8 @@ const char* combinationText(Combination combination) {
   return "";
 }
 
-/// What the policy sets: ", policy: LOD scale 2, far distance 0.8 x visible distance; height above ground
-/// unknown".
+/// Says what the policy sets: ", policy: LOD scale 2, far distance 0.8 x visible distance; height above
+/// ground unknown".
 std::string policyText(const PolicyOutcome& policy) {
   std::string text;
   for (const LeverRow& row : kLeverRows)
@@ -83,7 +83,6 @@ std::string outcomeText(const FrameDecision& d) {
                    d.occlusionResolution->heightPx);
 }
 
-/// The total of the memberships.
 TotalMembership totalOf(const FrameDecision& d, const TuningParameters& parameters) {
   return combine(parameters.scheme.combination, parameters.scheme.rules, d.ruleFiring, d.altitudeMembership,
                  d.pitchMembership);
@@ -139,7 +138,7 @@ void decideScheme(const TotalMembership& total, const ValidatedParameters& param
     decision.reason = choice.band >= 0 ? SchemeReason::in_band : SchemeReason::below_first_band;
 }
 
-/// The levers of the preset's policy. `total` is what the occlusion rests at where no rule sets it.
+/// Decides the levers of the preset's policy. `total` is what the occlusion rests at where no rule sets it.
 PolicyOutcome followPolicy(const CompiledPolicy& policy, const FrameInput& input,
                            const ValidatedParameters& parameters, double total, DecisionMemory& memory) {
   thread_local PolicyDecision decision;  // kept, so that a decision allocates nothing
@@ -161,8 +160,8 @@ FrameDecision decide(const FrameInput& input, const ValidatedParameters& paramet
 
 FrameDecision decide(const FrameInput& input, const WeatherDecision& weather,
                      const ValidatedParameters& parameters, DecisionMemory& memory) {
-  // Made in place: copying what was just written in smaller pieces takes the processor longer than deciding
-  // it.
+  // The decision is made in place: copying what was just written in smaller pieces costs the processor more
+  // time than deciding it.
   FrameDecision decision{.ruleFiring = {},
                          .occlusionResolution = {},
                          .motion = decideMotion(input.state, parameters->motion, memory.motion, input.drawn),
@@ -184,8 +183,8 @@ void setBand(FrameDecision& decision, const BandList& bands, int band) {
 }
 
 LeverChain leversOf(const FrameDecision& d, const TuningParameters& parameters) {
-  // What the memberships alone ask for, without the hysteresis, is looked up only where a rule took their
-  // place.
+  // The memberships alone, without the hysteresis, are looked up only where a rule replaced what they ask
+  // for.
   std::optional<OcclusionResolution> unruled = d.occlusionResolution;
   if (d.policy.moves(Lever::occlusion)) {
     const BandList& bands = parameters.scheme.bands;

@@ -46,15 +46,15 @@ void skipBlanks(std::string_view text, std::size_t& at) {
   while (at < text.size() && isBlank(text[at])) ++at;
 }
 
-/// From an opening quote to behind the closing one.
+/// Moves from an opening quote to behind the closing one.
 void skipString(std::string_view text, std::size_t& at) {
   for (++at; at < text.size() && text[at] != '"'; ++at)
     if (text[at] == '\\') ++at;
   at = std::min(at + 1, text.size());
 }
 
-/// From the first character of a value to behind its last. Counts brackets instead of recursing: files nest
-/// as they like.
+/// Moves from the first character of a value to behind its last. Counts brackets instead of recursing: files
+/// nest as they like.
 void skipValue(std::string_view text, std::size_t& at) {
   std::size_t depth = 0;
   while (at < text.size()) {
@@ -71,7 +71,7 @@ void skipValue(std::string_view text, std::size_t& at) {
   }
 }
 
-/// Elements of an array's text.
+/// Returns the elements of an array's text.
 std::vector<std::string_view> elements(std::string_view array) {
   std::vector<std::string_view> found;
   if (array.empty() || array.front() != '[') return found;
@@ -146,7 +146,7 @@ Result<ParameterValue> readBands(std::string_view value) {
   return ParameterValue{bands};
 }
 
-/// The condition of that name; none where `text` is no such string.
+/// Reads the condition of that name; none if `text` is no such string.
 template <class Condition>
 std::optional<Condition> readCondition(const std::array<std::string_view, 3>& names, std::string_view text) {
   const auto name = readString(text);

@@ -31,7 +31,7 @@ void fromVersion1(const TuningParameters&, std::vector<RawParameter>& parameters
   }
 }
 
-/// What a key of version 2 said: weight or output of the rule with these two conditions.
+/// Says what a key of version 2 said: weight or output of the rule with these two conditions.
 struct FormerRule {
   std::string_view prefix;
   AltitudeCondition altitude;
@@ -43,7 +43,7 @@ constexpr FormerRule kFormerRules[] = {
     {"fuzzy.rules.high_down_", AltitudeCondition::high, PitchCondition::nose_down},
     {"fuzzy.rules.high_up_", AltitudeCondition::high, PitchCondition::nose_up}};
 
-/// The rule with these conditions; added with what version 2 shipped where the base has lost it. Null where
+/// Returns the rule with these conditions; added with what version 2 shipped if the base has lost it. Null if
 /// the list is full.
 FuzzyRule* ruleLike(const FormerRule& former, RuleList& rules) {
   const auto is = [&former](const FuzzyRule& rule) {
@@ -109,7 +109,7 @@ constexpr void (*kMigrations[])(const TuningParameters&, std::vector<RawParamete
     fromVersion1, fromVersion2};
 static_assert(std::size(kMigrations) == kPresetVersion - 1, "each older version needs its migration");
 
-/// What an image generator did before a parameter existed, where the parameter's default does otherwise.
+/// Says what an image generator did before a parameter existed, where the parameter's default does otherwise.
 struct FormerBehaviour {
   std::string_view key, value;
 };

@@ -94,7 +94,7 @@ std::string describe(const ParameterRow& row) {
   return text + "\n";
 }
 
-/// The rules of Eq. (2) that ship.
+/// Returns the rules of Eq. (2) that ship.
 std::string ruleBase() {
   std::string text =
       "## The rule base\n\nUsed when `fuzzy.combination` is `rules`. *Low* is the altitude membership, "

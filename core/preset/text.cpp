@@ -12,7 +12,7 @@ namespace trimtab {
 
 namespace {
 
-/// The text up to the next blank, which is taken off `rest`; empty at the end.
+/// Returns the text up to the next blank, which is removed from `rest`; empty at the end.
 std::string_view nextWord(std::string_view& rest) {
   rest = trimmed(rest);
   const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r\n"));
@@ -144,7 +144,8 @@ Result<ParameterValue> parseRules(const ParameterRow& row, std::string_view text
   return ParameterValue{rules};
 }
 
-/// Between lines is a | or the end of a line; \| and \\ are those characters. Empty lines mean nothing.
+/// Reads lines separated by a | or the end of a line; \| and \\ are those characters. Empty lines mean
+/// nothing.
 ParameterValue parseLines(std::string_view text) {
   TextLines lines;
   std::string line;

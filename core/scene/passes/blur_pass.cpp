@@ -60,7 +60,8 @@ void BlurPass::resize(int width, int height) {
 void BlurPass::makeTargets() {
   glGenTextures(2, texture_.data());
   glGenFramebuffers(2, frame_.data());
-  // Written along with the sum: converting one image into the other afterwards took longer than the mix.
+  // The image shown is written along with the sum: converting one image into the other afterwards took longer
+  // than the mix.
   glGenTextures(1, &shown_);
   glBindTexture(GL_TEXTURE_2D, shown_);
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width_, height_);

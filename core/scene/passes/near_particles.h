@@ -18,7 +18,7 @@ struct NearParticle {
   double strength = 0;  ///< 0..1, of its opacity at the middle
 };
 
-/// How all particles of a frame move and look.
+/// Says how all particles of a frame move and look.
 struct ParticleMotion {
   Vec3 fall;    ///< through the local frame while it lies in still air, metres per second
   Vec3 streak;  ///< eye axes, metres: from a particle back to where it was when the exposure began
@@ -26,7 +26,7 @@ struct ParticleMotion {
 };
 ParticleMotion particleMotion(const PrecipitationView& falling, const SceneView& view);
 
-/// No frame has more.
+/// No frame draws more particles than that.
 inline constexpr std::size_t kMostParticles = 12'000;
 
 /// Replaces `particles` by those in view. Each stands in a lattice of cells that the air carries and that

@@ -10,8 +10,8 @@ namespace {
 constexpr double kEarthRadius = 6.37e6;
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// Whether every straight line from a place to one on a parallel of latitude, at most `away` degrees of
-/// longitude off, comes to it from the equator's side. North is where that parallel is.
+/// Reports whether every straight line from a place to one on a parallel of latitude, at most `away` degrees
+/// of longitude off, comes to it from the equator's side. North is where that parallel is.
 ///
 /// Places of one latitude, at any height, make a cone about the earth's axis, and what is nearer the pole is
 /// inside of it. A line enters the cone where its eye is on the inner side of the plane that touches the cone

@@ -16,7 +16,7 @@ namespace trimtab::terrain {
 /// File of the work folder: one bit per post, set where a void was filled.
 inline constexpr const char* kVoidsName = "voids.bits";
 
-/// What a bake knows about its heights once they are in their file.
+/// Holds what a bake knows about its heights once they are in their file.
 struct BakedHeights {
   PostGrid posts;
   float lowest = 0, highest = 0;

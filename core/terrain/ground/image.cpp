@@ -59,7 +59,7 @@ std::vector<std::string> wordsFor(GDALDataset& data) {
   return words;
 }
 
-/// The bands that are wanted in order, nothing copied.
+/// Returns the bands that are wanted in order, nothing copied.
 Dataset inOrder(GDALDataset& data, std::vector<std::string> words) {
   words.insert(words.begin(), {"-of", "VRT"});
   std::vector<char*> list;
@@ -109,7 +109,7 @@ Outline outlineOf(const PlacedRaster& raster) {
     if (!transform || !transform->Transform(1, &at[0], &at[1]) || !std::isfinite(at[0]) ||
         !std::isfinite(at[1]))
       return false;
-    // Where the raster is in degrees only the datum has changed, so one across 180 continues.
+    // If the raster is in degrees, only the datum has changed, so one across 180 continues.
     if (geographic) at[0] = before + std::remainder(at[0] - before, 360.0);
     return true;
   };

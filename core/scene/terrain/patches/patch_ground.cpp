@@ -20,8 +20,8 @@ bool isOver(const Box& b, float x, float y, float beside = 0) {
   return x >= b.minX - beside && x <= b.maxX + beside && y >= b.minY - beside && y <= b.maxY + beside;
 }
 
-/// Whether heights that differ along the earth's verticals differ by at most half as much again along the
-/// frame's, where it is nowhere steeper than that. Bounds: metres from the origin.
+/// Reports whether heights that differ along the earth's verticals differ by at most half as much again along
+/// the frame's, where it is nowhere steeper than that. Bounds: metres from the origin.
 bool isGentle(const Box& b, Vec3 origin, double steepest) {
   double lean = 0;
   for (const float x : {b.minX, b.maxX})

@@ -11,7 +11,7 @@
 namespace trimtab::scene {
 namespace {
 
-/// How many different vertices each node's triangles have.
+/// Returns how many different vertices each node's triangles have.
 std::vector<std::uint32_t> vertexCounts(const terrain::StaticLodTerrain& terrain) {
   std::vector<std::uint32_t> counts(terrain.index.size());
   std::vector<std::vector<std::uint32_t>> lastUser(terrain.tiles.size());

@@ -8,7 +8,7 @@
 
 namespace trimtab {
 
-/// What the horizon reads first of any surface.
+/// Holds what the horizon reads first of any surface.
 struct Relief {
   Vec3 origin;  ///< metres, local frame; all other coordinates are relative to it
   Box bounds;

@@ -30,18 +30,19 @@ struct Skips {
   friend bool operator==(const Skips&, const Skips&) = default;
 };
 
-/// Everything that one image depends on.
+/// Holds everything that one image depends on.
 struct FrameRequest {
   double time = 0;  ///< seconds on the host's clock; precipitation and blur follow it
   GeodeticPosition eye;
   std::optional<Velocity> velocity;  ///< of the eye; precipitation streaks along it
   Wind wind;                         ///< precipitation streaks against it too
-  /// How far the wind has carried the air since the session began, metres, in earth-centred axes;
-  /// precipitation drifts with it.
+  /// The way of the air in the wind since the session began, metres, in earth-centred axes; precipitation
+  /// drifts with it.
   Vec3 airDrift;
   PrecipitationLook rain = kRainLook, snow = kSnowLook;
   PrecipitationForm precipitationForm = PrecipitationForm::bounded;
-  /// What falls while it fades in or out; unset: what the decision says. The published effect does not fade.
+  /// What falls while it fades in or out; if unset, what the decision says. The published effect does not
+  /// fade.
   std::optional<FadingPrecipitation> fading;
   Attitude attitude;  ///< of the view: aircraft, or aircraft and head
   ViewShape view;     ///< perspective, and the image's size
@@ -49,8 +50,8 @@ struct FrameRequest {
   /// is scaled to the image; 0: those of `view`.
   double imagePxPerRadian = 0;
   FrameDecision decision;
-  /// How coarsely it is drawn: LeverChain::drawn is all that the renderer reads of it, the other links say who
-  /// changed what.
+  /// The levers, step by step: LeverChain::drawn is all that the renderer reads of it, the other links say
+  /// who changed what.
   LeverChain levers;
   HoldDecision hold;  ///< the reason of the chain's last step
   CullingCase method = CullingCase::proposed;

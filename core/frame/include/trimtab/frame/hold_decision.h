@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
-/// What the arbiter of the frame's budget decided for one image. core/hold decides it, and a session puts it
-/// into the request.
+/// Declares what the arbiter of the frame's budget decided for one image. core/hold decides it, and a session
+/// puts it into the request.
 namespace trimtab {
 
 /// The levers that the arbiter may lower; withBudget() in frame_levers.h applies them. In the units of their
@@ -30,7 +30,7 @@ struct StageTimes {
   friend bool operator==(const StageTimes&, const StageTimes&) = default;
 };
 
-/// Why the levers are where they are.
+/// Says why the levers are where they are.
 enum class HoldReason : std::uint8_t {
   off,           ///< hold.enabled is off
   no_budget,     ///< measure.budget_ms is not a number above 0
@@ -43,7 +43,6 @@ enum class HoldReason : std::uint8_t {
   not_trusted    ///< as asked for, because the last predictions were too far off
 };
 
-/// How many there are.
 inline constexpr std::size_t kHoldReasons = static_cast<std::size_t>(HoldReason::not_trusted) + 1;
 
 struct HoldDecision {

@@ -9,8 +9,8 @@
 
 namespace trimtab {
 
-/// How far each rule of the preset's list fires (mu), in the list's order, whatever the combination. Entries
-/// beyond `count` are neither set nor copied, because every decision has one of these.
+/// Says how far each rule of the preset's list fires (mu), in the list's order, whatever the combination.
+/// Entries beyond `count` are neither set nor copied, because every decision has one of these.
 struct RuleFiring {
   std::array<double, RuleList::kCapacity> mu;
   std::size_t count = 0;

@@ -12,7 +12,7 @@
 /// Predicts what an image costs on this machine, and learns it while flying.
 namespace trimtab {
 
-/// What the time of an image follows from.
+/// Holds what the time of an image follows from.
 struct FrameLoad {
   double triangles = 0;  ///< of the ground, drawn
   double groundMpx = 0;  ///< millions of pixels of the scene that show ground
@@ -26,7 +26,7 @@ struct FrameLoad {
 /// Standard deviations in the 90 % band of a normal distribution.
 inline constexpr double kNormalBand = 1.645;
 
-/// What the work of one clock costs, milliseconds a unit of its quantity.
+/// Holds what the work of one clock costs, milliseconds per unit of its quantity.
 ///
 /// A triangle costs perTriangle at any render scale. A software rasteriser also pays for the length of its
 /// edges in pixels: perTriangleSide times the side of the scene, which is the root of its millions of pixels.
@@ -75,7 +75,7 @@ class ClockModel {
   double bandMs(const FrameLoad& load) const;
   /// Returns the median by which the last predictions were off, milliseconds.
   double offMs() const;
-  /// Below so many images a prediction would be little more than the first image's time.
+  /// A prediction from fewer images would be little more than the first image's time.
   static constexpr double kFewestImages = 8;
   bool known() const { return ground_.state().images >= kFewestImages; }
   std::size_t images() const { return images_; }

@@ -23,7 +23,7 @@ struct Preset {
   std::filesystem::path folder;  ///< where the file of a base is looked up; if empty, the working folder
 };
 
-/// Who made an export, when and with what.
+/// Says who made an export, when and with what.
 struct Provenance {
   std::string author, created, program, terrain, comment;  ///< created: ISO 8601 UTC
 };

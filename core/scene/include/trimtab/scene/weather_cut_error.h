@@ -5,7 +5,7 @@
 
 namespace trimtab::scene {
 
-/// How the weather's far cut changed an image.
+/// Says how the weather's far cut changed an image.
 struct CutError {
   std::size_t pixels = 0;   ///< in the image
   std::size_t changed = 0;  ///< pixels that differ in any channel

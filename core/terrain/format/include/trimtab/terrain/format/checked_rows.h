@@ -78,7 +78,7 @@ class CheckedRows {
     std::shared_ptr<const Block> block;
     bool damaged = false;
   };
-  /// Null if the block is damaged. Thread-safe.
+  /// Returns a block, or null if it is damaged. Thread-safe.
   std::shared_ptr<const Block> block(std::uint32_t number) const;
   /// Reads and checks; null if the bytes are not what was written, which is then a finding.
   std::shared_ptr<const Block> readBlock(std::uint32_t number, Findings& findings) const;
