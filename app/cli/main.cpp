@@ -29,7 +29,7 @@ int writeOut(const std::string& output, const std::string& text) {
 namespace {
 
 /// Returns failure if the output could not be written, because a program that reads it must not mistake half
-/// of it for all; else `exitCode`. `exitCode` is that of the command.
+/// of it for all; else `exitCode`, which is that of the command.
 int finished(int exitCode) {
   std::cout.flush();
   const int error = std::fflush(stdout) != 0 ? errno : 0;

@@ -63,13 +63,13 @@ Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& 
 /// slowest image may be any disturbance of the machine.
 PairedRatio gainOf(const MotionRun& before, const MotionRun& with, int from, int to, double quantile);
 /// Says whether document C's gain, 1.7 times the smallest rate, shows over this form of the terrain, as far
-/// as the intervals tell.
+/// as the intervals show.
 std::string gainText(const std::string& form, const MotionRun& before, const MotionRun& with, int from,
                      int to);
 
 /// Returns how often in each pass the rate falls rapidly from one image to the next.
 std::vector<double> rapidDrops(const MotionRun& run);
-/// Says whether restoration leaves fewer rapid drops, as far as the passes tell.
+/// Says whether restoration leaves fewer rapid drops, as far as the passes show.
 std::string rapidDropsText(const std::string& form, const MotionRuns& runs);
 
 /// Returns the forms of the terrain that an experiment compares, as they are drawn: what the preset asks for,

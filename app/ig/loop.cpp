@@ -19,7 +19,7 @@ namespace {
 
 /// Between packets a viewer sees the eye move on at this rate.
 constexpr double kViewerPeriodS = 1.0 / 60;
-/// The newest frames, whose cost the summary tells.
+/// The newest frames, whose cost the summary reports.
 constexpr std::size_t kFramesKept = 8192;
 
 class Loop {

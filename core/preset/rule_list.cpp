@@ -15,7 +15,7 @@ std::string_view nameIn(const std::array<std::string_view, 3>& names, Condition 
   return index < names.size() ? names[index] : "?";
 }
 
-/// Takes `name` as one of the conditions; each input may be asked about once.
+/// Reads `name` as one of the conditions; each input may be asked about once.
 bool addCondition(std::string_view name, FuzzyRule& rule) {
   const auto at = [name](const std::array<std::string_view, 3>& names) {
     return static_cast<std::size_t>(std::find(names.begin() + 1, names.end(), name) - names.begin());

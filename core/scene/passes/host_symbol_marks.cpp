@@ -239,7 +239,7 @@ void Marker::glyphAt(char character, double u, double v, double unit) {
     line(toPixels_.at(u + g.x0 * unit, v + g.y0 * unit), toPixels_.at(u + g.x1 * unit, v + g.y1 * unit));
 }
 
-/// Small letters are written as capitals; a character that the font lacks leaves its place blank.
+/// Small letters are written as capitals; a character that the font misses leaves its place blank.
 void Marker::text() {
   std::string characters;
   for (const char c : shape_.text)

@@ -37,7 +37,7 @@ inline constexpr std::size_t kMostParticles = 12'000;
 /// share, those that are left are stronger by as much, as far as none is more than opaque, so that rain looks
 /// as dense and takes less time.
 ///
-/// Takes some 20 ns a particle. Numbers that are not finite count as 0; a view without an area has no
+/// Costs some 20 ns per particle. Numbers that are not finite count as 0; a view without an area has no
 /// particles.
 void findNearParticles(const PrecipitationView& falling, const SceneView& view,
                        std::vector<NearParticle>& particles);

@@ -87,7 +87,7 @@ GeodeticPosition placeIn(const terrain::TerrainInfo& info, double east, double n
 bool liesOver(const terrain::TerrainInfo& info, const GeodeticPosition& place) {
   double east = std::fmod((place.longitude - info.southWest.longitude).value(), 360);
   if (east < 0) east += 360;
-  // Borders are told rounded: a place on the western one may be a little west of it.
+  // Borders are given rounded: a place on the western one may be a little west of it.
   constexpr double kRounding = 1e-9;
   return place.latitude >= info.southWest.latitude && place.latitude <= info.northEast.latitude &&
          (east <= widthOf(info).value() + kRounding || east >= 360 - kRounding);

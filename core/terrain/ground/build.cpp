@@ -58,7 +58,7 @@ class Blocks {
       blocks->images_.push_back(std::move(image).value());
     }
     double texels = sources.triangles == nullptr ? 1 : 2;
-    // A picture a little finer than the posts keeps their grid: up to half an octave is given away.
+    // An image a little finer than the posts keeps their grid: up to half an octave is given away.
     if (finest > 0)
       texels = std::clamp(std::exp2(std::round(std::log2(posts.stepLatitude / finest))), texels,
                           std::max(sources.mostTexelsPerPost, texels));

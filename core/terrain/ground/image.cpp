@@ -122,7 +122,7 @@ Outline outlineOf(const PlacedRaster& raster) {
   const auto apart = [&](const std::array<double, 2>& a) {
     return std::hypot(std::remainder(a[0] - middle[0], 360.0) * cosine, a[1] - middle[1]);
   };
-  // A picture in degrees has its own step north; others are about as fine in all directions.
+  // An image in degrees has its own step north; others are about as fine in all directions.
   outline.step = geographic && g[4] == 0 ? std::abs(g[5]) : std::sqrt(apart(right) * apart(below));
   outline.west = outline.east = middle[0];
   outline.south = outline.north = middle[1];
@@ -135,7 +135,7 @@ Outline outlineOf(const PlacedRaster& raster) {
       outline.west = std::min(outline.west, at[0]), outline.east = std::max(outline.east, at[0]);
       outline.south = std::min(outline.south, at[1]), outline.north = std::max(outline.north, at[1]);
     }
-  // About a pole a projected picture has all longitudes.
+  // About a pole a projected image has all longitudes.
   outline.known = geographic || std::max(-outline.south, outline.north) < 80;
   const double slack = 2 * outline.step + 0.02 * (outline.north - outline.south);
   if (!geographic)

@@ -118,7 +118,7 @@ std::size_t PatchGround::makeSurfaces(Vec3 eye) {
       make(*patches_.meshOf(patch.node), patch, surfaces_.make(patch.node));
     });
   };
-  // While one may hang over, none hides anything: first those that only their surface can tell of.
+  // While one may hang over, none hides anything: first ask those whose surface alone can show it.
   makeNearest([&](TileDraw patch) { return !normalsRise(patch.node) && lacks(patch); });
   return makeNearest(lacks);
 }
@@ -162,7 +162,7 @@ void PatchGround::fill(std::vector<HorizonTile>& tiles) {
   for (const TileDraw& patch : cut().tiles) {
     const Surface* surface = surfaceOf(patch);
     tiles.push_back({.mayOcclude = surface && surface->inside, .mesh = surface ? &surface->relief : nullptr});
-    // Beside another variant's surface it would be told by that one whether it takes room.
+    // If another variant has a surface, that one would decide whether this patch needs room.
     if (!surfaces_.find(patch.node))
       tiles.back().mesh = lids_.of(patch.node, patches_.index().bounds[patch.node]);
   }

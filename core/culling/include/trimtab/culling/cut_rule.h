@@ -6,7 +6,7 @@
 
 namespace trimtab {
 
-/// Moves the distance at which a node is exchanged for its children, by LodParameters::spread. Takes and
+/// Moves the distance at which a node is exchanged for its children, by LodParameters::spread. Receives and
 /// returns squares of metres. 0 stays 0 and infinity stays infinity.
 inline double spreadSquared(double distance2, double spread, double fromM) {
   if (spread == 1) return distance2;

@@ -14,8 +14,8 @@
 /// The request for one image.
 namespace trimtab {
 
-/// Work that a frame skips because its result is known. False does the work all the same, which changes no
-/// pixel: for measuring what the skip saves.
+/// Work that a frame skips because its result is known. If false, the work is done all the same, which
+/// changes no pixel and measures what the skip saves.
 struct Skips {
   bool sameCut = true;           ///< selects a cut only if something that it depends on has changed
   bool beyondVisibility = true;  ///< does not draw nodes beyond the weather's far cut
@@ -80,7 +80,7 @@ struct FrameRequest {
   /// measurements and comparisons. If false, no frame waits, and what has not been read yet is drawn coarser.
   bool waitForPages = false;
   /// Makes OcclusionMethod::automatic use the horizon, so that counts depend on the requests alone and not on
-  /// a clock.
+  /// a clock. Without Skips::littleHidden, no horizon of another eye position is used either.
   bool reproducible = false;
   /// Makes readHorizon, and readDepthMap if a horizon is in use, report all that the horizon proves, not only
   /// what tests asked for. It costs a twentieth of the horizon.
@@ -94,7 +94,7 @@ struct FrameRequest {
 };
 
 /// Returns the distance from the eye, metres, beyond which this frame draws no terrain: the far
-/// distance of its levers. Infinite if nothing sets one, or if Skips::beyondVisibility is off.
+/// distance of its levers. It is infinite if nothing sets one, or if Skips::beyondVisibility is off.
 inline double farCutM(const FrameRequest& request) {
   return request.skips.beyondVisibility ? request.levers.drawn.farM : WeatherDecision::kUnlimited;
 }

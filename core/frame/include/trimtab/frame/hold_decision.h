@@ -9,8 +9,8 @@
 /// puts it into the request.
 namespace trimtab {
 
-/// The levers that the arbiter may lower; withBudget() in frame_levers.h applies them. In the units of their
-/// rows in levers.h.
+/// The levers that the arbiter may lower; withBudget() in frame_levers.h applies them. They have the units of
+/// their rows in levers.h.
 struct HeldLevers {
   double errorPx = 0;        ///< allowed screen-space error
   double renderScale = 1;    ///< part of the image's width and height
@@ -50,7 +50,7 @@ struct HoldDecision {
   HeldLevers asked, held;      ///< by preset and policy; by the arbiter
   StageTimes askedMs, heldMs;  ///< predicted for both
   double limitMs = 0;          ///< what a prediction may reach
-  double bandMs = 0;           ///< nine of ten images take no longer and no shorter than heldMs by so much
+  double bandMs = 0;           ///< half the 90 % band of a prediction, at the levers of the image before
 
   friend bool operator==(const HoldDecision&, const HoldDecision&) = default;
 };

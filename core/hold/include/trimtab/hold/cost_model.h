@@ -41,7 +41,7 @@ struct ClockCoefficients {
 /// clock that takes longer for the load that they were asked for: processor or GPU.
 struct CostCoefficients : ClockCoefficients {
   std::optional<ClockCoefficients> second;  ///< the other clock, if there are two
-  double bandMs = 0;   ///< the 90 % band of the image that is about to be drawn, to either side
+  double bandMs = 0;   ///< half the 90 % band of an image with the load that was asked for
   double offMs = 0;    ///< the median by which the last predictions were off, to either side
   bool known = false;  ///< enough images were measured to predict one
 };
@@ -105,7 +105,7 @@ class ClockModel {
   };
   static constexpr double kLeastBand = 0.3, kMostBand = 10;
   State state() const;
-  /// Takes a saved state, with some distrust (LinearCost::restore).
+  /// Restores a saved state, with some distrust (LinearCost::restore).
   void restore(const State& state);
 
  private:

@@ -119,8 +119,8 @@ class LinearCost {
     }
   };
   const State& state() const { return state_; }
-  /// Takes a state that was saved. Its uncertainty grows to at least a part of its coefficients, because the
-  /// machine may have changed since.
+  /// Restores a state that was saved. Its uncertainty grows to at least a part of its coefficients, because
+  /// the machine may have changed since.
   void restore(const State& state) {
     state_ = state;
     for (std::size_t i = 0; i < N; ++i) {

@@ -47,7 +47,7 @@ inline constexpr double kPresetsOwn = std::numeric_limits<double>::quiet_NaN();
 
 // Rates: a lever crosses its usual range in about half a second, so that no image shows a jump; the blur,
 // which lives for tenths of a second, is faster. Dead bands are a twentieth of an octave or less, which is
-// below the difference in triangles that a still picture shows.
+// below the difference in triangles that a still image shows.
 inline constexpr std::array kLeverRows{
     LeverRow{Lever::occlusion,
              "occlusion",

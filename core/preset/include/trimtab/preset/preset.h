@@ -30,7 +30,7 @@ struct Provenance {
 
 enum class ExportFormat { json, xml, ini };
 
-/// Returns what an export should tell of parameters whose effect depends on the machine, as one sentence;
+/// Returns what an export should report of parameters whose effect depends on the machine, as one sentence;
 /// empty if there is nothing. `culling.occlusion` = auto is one: which method serves is measured by each
 /// machine.
 std::string machineNote(const TuningParameters& parameters);

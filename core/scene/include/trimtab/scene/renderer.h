@@ -57,7 +57,7 @@ class Renderer {
   FrameResult draw(const FrameRequest& request, unsigned fbo);
 
   /// Builds and uploads meshes that coming images will draw, so that those do not take the time: in order, of
-  /// the nodes that lack one, as Session::nodesAhead names them. It stops after `withinMs` (milliseconds) and
+  /// the nodes that miss one, as Session::nodesAhead names them. It stops after `withinMs` (milliseconds) and
   /// finishes the mesh that it has begun: a tile's takes about 0.1 ms, that of a tile of static trees takes
   /// milliseconds. Call it between images, with the context current. It changes no image. Patches are read
   /// ahead by draw().

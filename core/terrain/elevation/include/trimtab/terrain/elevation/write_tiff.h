@@ -20,8 +20,8 @@ Result<Done> writeTiff(const std::filesystem::path& tif, const PostGrid& posts, 
 
 /// Does what TiffRows does, for red, green and blue of each pixel.
 using TiffPixels = std::function<bool(std::uint32_t first, std::uint32_t count, std::span<std::uint8_t> rgb)>;
-/// Writes a picture whose pixels' centres are the posts, as a tiled GeoTIFF with JPEG compression, in the
-/// same way.
+/// Writes an image whose pixels' centres are the posts, as a tiled GeoTIFF with JPEG compression, in the same
+/// way.
 Result<Done> writePicture(const std::filesystem::path& tif, const PostGrid& pixels, const TiffPixels& rows);
 
 }  // namespace trimtab::terrain
