@@ -149,7 +149,7 @@ void addPlots(const Strain& strain, const Runs& runs, double budgetMs, std::size
   for (Plot* plot : {&ms, &error, &scale}) report.plots.push_back(std::move(*plot));
 }
 
-/// Holds what flies and whom to inform meanwhile: how many flights of the strain are done, and what is flown.
+/// Holds what flies, and `go`, which hears how many flights of the strain are done and what is flown.
 struct Desk {
   const Stages& stages;  ///< by mode
   Referee& referee;

@@ -147,7 +147,7 @@ Summary summarise(const Unit& unit, const Quantity& quantity) {
   if (values.empty()) return {kNan, kNan, kNan, kNan, kNan};
   Summary summary;
   for (const double value : values) summary.mean += value / static_cast<double>(values.size());
-  // From the good end to the bad one.
+  // The sign leads from the good end to the bad one.
   const double sign = quantity.largerIsWorse ? 1 : -1;
   for (double& value : values) value *= sign;
   summary.median = quantileOf(values, 0.5) * sign;

@@ -42,9 +42,9 @@ struct ReceiverOptions {
   std::uint16_t port = 0;                 ///< 0: any free port
   std::string bindAddress = kOwnMachine;  ///< the interface's address; 0.0.0.0: every interface
   std::string group{};                    ///< a multicast group to join there, or empty
-  /// Who may send: kAnyone, kFirst (the address of the first good datagram is held from then on), or the
-  /// address or name of a host. The datagrams of others are counted and thrown away. The port of the sender
-  /// does not matter.
+  /// Sender that is allowed: kAnyone, kFirst (the address of the first good datagram is held from then on),
+  /// or the address or name of a host. The datagrams of others are counted and thrown away. The port of the
+  /// sender does not matter.
   std::string sender = kAnyone;
   HostProtocol protocol = HostProtocol::automatic;
   std::optional<Endpoint> reply;  ///< where Start of Frame is sent, `replyRateHz` times per second

@@ -46,7 +46,7 @@ TriangleLadder FrameHold::count(const FrameRequest& request, const LoadView& vie
   if (*form == TerrainForm::static_trees) {
     ladder = countTriangles(*index_->trees, treeErrorOf(request.staticLod.error), view, staticLodRuleOf(request),
                             askedPx, stack_);
-    // By that rule a distance follows from the error of a node alone, so the lever moves nothing.
+    // With that rule a distance follows from the error of a node alone, so the lever moves nothing.
     if (request.staticLod.rule == StaticDistanceRule::factor) ladder.fill(ladder.front());
     return ladder;
   }

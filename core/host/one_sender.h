@@ -30,7 +30,7 @@ class OneSender {
  public:
   OneSender(std::string from, HostProtocol wanted) : wanted_(wanted) { statistics_.from = std::move(from); }
 
-  /// Does what HostDecoder::accept does, for one sender.
+  /// Does what HostDecoder::accept does, for the datagrams of this sender.
   std::optional<AircraftState> accept(const Datagram& datagram);
   const HostStatistics& statistics() const { return statistics_; }
   const RateMeter& meter() const { return meter_; }

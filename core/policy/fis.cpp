@@ -33,8 +33,7 @@ struct Norm {
 constexpr Norm kConjunctions[] = {{"min", "Minimum"}, {"prod", "AlgebraicProduct"}};
 constexpr Norm kDisjunctions[] = {{"max", "Maximum"}, {"probor", "AlgebraicSum"}};
 
-/// Holds what the number of a term gets added for the hedges before it in MATLAB's language; a minus sign
-/// says not.
+/// Holds what fuzzylite adds to the number of a term for the hedges before it; a minus sign says not.
 struct HedgeCode {
   std::string_view hedges;
   const char* code;

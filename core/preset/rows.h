@@ -249,7 +249,8 @@ consteval bool keysAreOrderly(const std::array<CheckedRow, N>& rows) {
   return true;
 }
 
-/// The groups together have as many different fields as there are: so every field has exactly one row.
+/// Reports whether every field has exactly one row: no field has two, no group is missing, and there are as
+/// many rows as fields.
 template <std::size_t N>
 consteval bool everyFieldHasOneRow(const std::array<CheckedRow, N>& rows) {
   std::size_t groups = 0, fields = 0;

@@ -121,7 +121,7 @@ class Pyramid {
   const double left, right, bottom, top;  ///< tangents
 
  private:
-  /// What a metre square to each side is, measured across the view.
+  /// Measures of a metre that is square to each side, across the view.
   const std::array<double, 4> slant_{std::hypot(1, left), std::hypot(1, right), std::hypot(1, bottom),
                                      std::hypot(1, top)};
 };

@@ -87,7 +87,7 @@ class Rows {
   int file_ = -1, failed_ = 0;
 };
 
-/// Halves the size, again and again: it holds means of the heights that are there.
+/// Describes a grid of half the size of the one before it, whose heights are means of those that are there.
 struct Level {
   std::uint32_t columns = 0, rows = 0;
   std::size_t first = 0;  ///< where its rows are kept

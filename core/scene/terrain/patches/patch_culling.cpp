@@ -191,7 +191,7 @@ void PatchCulling::Impl::reserve(const FrameRequest& request, PatchLayer& layer)
                 static_cast<std::size_t>(share * static_cast<double>(bytes.indices)));
 }
 
-/// Returns memory to the system if the budget has shrunk a lot, and reports whether pages had to go.
+/// Gives back the memory of before if the budget has shrunk a lot, and reports whether pages had to go.
 bool PatchCulling::Impl::giveBack(const FrameRequest& request, PatchLayer& layer) {
   const std::uint64_t budget = budgetOf(request);
   if (budget >= reservedFor / 2) return false;

@@ -118,7 +118,7 @@ std::size_t PatchGround::makeSurfaces(Vec3 eye) {
       make(*patches_.meshOf(patch.node), patch, surfaces_.make(patch.node));
     });
   };
-  // While one may hang over, none hides anything: first ask those whose surface alone can show it.
+  // While one may hang over, none hides anything: so surfaces that alone can show it are made first.
   makeNearest([&](TileDraw patch) { return !normalsRise(patch.node) && lacks(patch); });
   return makeNearest(lacks);
 }
@@ -162,7 +162,7 @@ void PatchGround::fill(std::vector<HorizonTile>& tiles) {
   for (const TileDraw& patch : cut().tiles) {
     const Surface* surface = surfaceOf(patch);
     tiles.push_back({.mayOcclude = surface && surface->inside, .mesh = surface ? &surface->relief : nullptr});
-    // If another variant has a surface, that one would decide whether this patch needs room.
+    // A lid beside another variant's surface would be judged by that surface (takesRoom), so there is none.
     if (!surfaces_.find(patch.node))
       tiles.back().mesh = lids_.of(patch.node, patches_.index().bounds[patch.node]);
   }

@@ -23,7 +23,7 @@ namespace trimtab {
 struct LevelCut {
   std::vector<TileDraw> tiles;  ///< selectors choose an order that depends on the terrain only
 
-  // Holds what selectVisible reads beside the tiles; `gather` computes it.
+  // selectVisible reads these beside the tiles; `gather` computes them.
   BoxArrays boxes;                                    ///< bounds of each tile
   BoxArrays blockBoxes;                               ///< bounds of each block of BoxArrays::kBlock tiles
   std::vector<std::uint32_t> triangles;               ///< drawn for each tile

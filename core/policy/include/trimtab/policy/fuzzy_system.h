@@ -74,7 +74,7 @@ struct System {
 /// line.
 Result<std::string> systemText(const System& system, RuleFormat format);
 
-/// Reads what writeSystem writes. It refuses with file, line, expected and found, one finding each and a
+/// Reads what systemText writes. It refuses with file, line, expected and found, one finding each and a
 /// hundred at most, what is neither language's form or no system of order zero, and what is beyond 4,096
 /// terms, 2,048 rules or 32,768 characters in a line. Shapes, numbers and the words of conditions are not
 /// looked at.
