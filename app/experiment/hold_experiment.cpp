@@ -266,7 +266,7 @@ GeodeticPosition eyeAbove(const Place& place) {
 }
 
 /// Returns what a program would load at its start: the model after a sweep from another place than that of
-/// the strains. Nothing if the person cancels.
+/// the strains. Returns nothing if the person cancels.
 std::optional<CostModel> learned(const Desk& desk) {
   const std::vector<Place> places = placesOf(desk.setup, 3);
   const auto parameters =

@@ -28,8 +28,8 @@ struct Strain {
 
 /// Returns the strain of a head that rests, turns 180 degrees in one second in steps of 1/200 s, and rests.
 Strain sweepStrain(const GeodeticPosition& eye);
-/// Returns a piece of the flight at 60 images a second, from its middle on, with the head of a log. Nothing
-/// if the flight is not over the terrain there.
+/// Returns a piece of the flight at 60 images a second, from its middle on, with the head of a log. Returns
+/// nothing if the flight is not over the terrain there.
 std::optional<Strain> headStrain(const Setup& setup, const HeadLog& head, double seconds);
 /// Returns the same while the host turns the weather from clear to light rain, heavy rain, heavy snow and
 /// clear again.

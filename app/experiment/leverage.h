@@ -62,8 +62,8 @@ struct Moment {
 
 /// Returns the moments at even rows of the flight above the terrain, each with a session of its own that has
 /// flown the second and a half before it at 60 images a second. With `headSweeps`, the head turns 180 degrees
-/// a second from side to side. No image is drawn, so a policy knows neither load nor triangles. Empty if no
-/// row lies above the terrain.
+/// a second from side to side. No image is drawn, so a policy knows neither load nor triangles. Returns an
+/// empty list if no row lies above the terrain.
 std::vector<Moment> momentsOf(const Setup& setup, const ValidatedParameters& parameters, bool headSweeps);
 
 /// Measures all levers over `setup.frames` frames of the flight. Each frame is drawn at both ends in turns,

@@ -143,7 +143,7 @@ class Search {
   }
   /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do and lose less
   /// than `lost`, the one that loses least, and of those that lose the same the quickest. A setting that
-  /// exchanges levels counts as losing more. Unset if there is none.
+  /// exchanges levels counts as losing more. It is unset if there is none.
   std::optional<HoldSteps> best(double limitMs, double lost) const {
     if (timeAt({}) <= limitMs) return HoldSteps{};
     std::optional<HoldSteps> best;

@@ -43,8 +43,8 @@ constexpr FormerRule kFormerRules[] = {
     {"fuzzy.rules.high_down_", AltitudeCondition::high, PitchCondition::nose_down},
     {"fuzzy.rules.high_up_", AltitudeCondition::high, PitchCondition::nose_up}};
 
-/// Returns the rule with these conditions; added with what version 2 shipped if the base has lost it. Null if
-/// the list is full.
+/// Returns the rule with these conditions; added with what version 2 shipped if the base has lost it. It is
+/// null if the list is full.
 FuzzyRule* ruleLike(const FormerRule& former, RuleList& rules) {
   const auto is = [&former](const FuzzyRule& rule) {
     return rule.altitude == former.altitude && rule.pitch == former.pitch;

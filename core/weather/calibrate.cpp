@@ -93,8 +93,8 @@ void Search::take(double farM, double density, double ms) {
   result_.matchedMs = ms;
 }
 
-/// Step 4: the cut wins more than the weather costs. By halves of the logarithm, because what a far plane
-/// costs grows with its square near the eye and with nothing once it is beyond the terrain.
+/// Step 4: the cut wins more than the weather costs. It goes by halves of the logarithm, because what a far
+/// plane costs grows with its square near the eye and with nothing once it is beyond the terrain.
 bool Search::pushOut() {
   double low = result_.visibilityM, high = std::max(settings_.farthestM, low);
   result_.outcome = CalibrationOutcome::not_settled;

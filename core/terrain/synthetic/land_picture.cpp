@@ -113,7 +113,7 @@ class Posts {
     const double value = band_.GetNoDataValue(&has);
     if (has != 0) noData_ = static_cast<float>(value);
   }
-  /// Reads rows from the north; voids become 0. False if GDAL fails.
+  /// Reads rows from the north; voids become 0. Returns false if GDAL fails.
   bool read(std::uint32_t first, std::uint32_t count, std::vector<float>& heights) {
     heights.resize(std::size_t{columns_} * count);
     const int columns = static_cast<int>(columns_), rows = static_cast<int>(count);

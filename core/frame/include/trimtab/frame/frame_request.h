@@ -112,7 +112,8 @@ struct FormsOfTerrain {
   bool tiles = false, patches = false, trees = false;
 };
 /// Returns the form in which a terrain is drawn: the one that the request asks for if the terrain has it,
-/// else patches or tiles, whichever it has. Unset if it has neither; static trees are drawn only on request.
+/// else patches or tiles, whichever it has. It is unset if it has neither; static trees are drawn only on
+/// request.
 std::optional<TerrainForm> formDrawn(const FrameRequest& request, const FormsOfTerrain& forms);
 
 /// Reports whether the request asks for static trees, if the terrain has them.

@@ -228,7 +228,7 @@ struct HoldParameters {
   Ratio caution{1.41};     ///< how many of the model's 90 % bands stay below 1.1 of the budget
   Milliseconds calm{120};  ///< head-room must last so long before levers are restored
   Ratio lookAhead{5};      ///< the views of so many coming images are counted
-  // How far the arbiter may go.
+  // These limit the arbiter.
   Pixels errorMaximum{16};
   Ratio renderScaleMinimum{0.5};
   Ratio particlesMinimum{0.25};

@@ -13,7 +13,7 @@ struct CutError {
 };
 
 /// Draws the request without and with its far cut and compares the two images. `fbo` keeps the second one.
-/// The context must be current. For measurements: it costs two frames.
+/// The context must be current. It serves measurements: it costs two frames.
 CutError cutError(Renderer& renderer, const FrameRequest& request, unsigned fbo);
 
 }  // namespace trimtab::scene
