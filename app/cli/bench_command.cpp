@@ -51,7 +51,7 @@ bool parseCases(const std::string& text, std::vector<CullingCase>& cases) {
   return true;
 }
 
-/// The file's name without folder and ending, or all of it where that is taken.
+/// Returns the file's name without folder and ending, or all of it where that is taken.
 template <class Named>
 std::string nameOf(const std::string& text, const std::vector<Named>& others) {
   const std::string stem = std::filesystem::path(text).stem().string();
@@ -60,7 +60,8 @@ std::string nameOf(const std::string& text, const std::vector<Named>& others) {
   return stem.empty() ? text : stem;
 }
 
-/// The states of a trace's own rows, which a reader of flights would drop or mend, over the ground as it was.
+/// Returns the states of a trace's own rows, which a reader of flights would drop or mend, over the ground as
+/// it was.
 std::vector<AircraftState> statesOf(const std::vector<TraceRow>& trace) {
   std::vector<AircraftState> states;
   for (const TraceRow& row : trace) {

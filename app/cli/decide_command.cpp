@@ -31,7 +31,7 @@ struct DecideOptions {
   bool json = false, csv = false;
 };
 
-/// What one run decides: rows in order, and for a trace how many came out as they were recorded.
+/// Holds what one run decides: rows in order, and for a trace how many came out as they were recorded.
 struct Decided {
   std::vector<TraceRow> rows;
   std::optional<std::size_t> asRecorded;
@@ -53,7 +53,7 @@ TraceRow decidedRow(Session& session, const Feed& feed) {
 /// apart.
 Result<Decided> decideOne(const DecideOptions& options, const ValidatedParameters& parameters) {
   Findings findings;
-  // What a flight's row may say.
+  // Checks what a flight's row may say.
   const auto check = [&findings](const char* option, std::optional<double> value, double low, double high,
                                  const char* unit) {
     if (!value || (*value >= low && *value <= high)) return;
@@ -127,7 +127,7 @@ std::vector<FiredRule> firedRules(const TraceRow& row, const CompiledPolicy& pol
   return fired;
 }
 
-/// What the policy made of the signals; null without one. Rules have their numbers, from 1.
+/// Returns what the policy made of the signals; null without one. Rules have their numbers, from 1.
 Json policyJson(const TraceRow& row, const CompiledPolicy* policy) {
   if (policy == nullptr) return nullptr;
   const PolicyOutcome& outcome = row.decision.policy;
@@ -166,7 +166,7 @@ Json chainJson(const LeverChain& chain) {
   return levers;
 }
 
-/// The policy's rules as text; none if it is switched off.
+/// Returns the policy's rules as text; none if it is switched off.
 std::vector<std::string> ruleTexts(const ValidatedParameters& parameters) {
   std::vector<std::string> texts;
   const auto policy = policyOf(parameters->policy);
@@ -228,7 +228,7 @@ void printJson(const DecideOptions& options, const Decided& decided, const Valid
   std::cout << document.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
-/// A flight's decisions as a trace; it flies again.
+/// Prints a flight's decisions as a trace; it flies again.
 void printCsv(const Decided& decided) {
   std::string text = traceHeader() + '\n';
   for (const TraceRow& row : decided.rows) appendTraceRow(text, row);

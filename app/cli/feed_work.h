@@ -9,12 +9,12 @@
 #include "app/link/link_watch.h"
 #include "trimtab/preset/stop_request.h"
 
-/// What the commands play, record and show of `feed` share.
+/// Declares what the commands play, record and show of `feed` share.
 namespace trimtab::cli {
 
 using Clock = std::chrono::steady_clock;
 
-/// When a command ends by itself; without limits only an interrupt ends it.
+/// Says when a command ends by itself; without limits only an interrupt ends it.
 struct Ending {
   double seconds = 0;         ///< 0: never
   std::uint64_t packets = 0;  ///< 0: never
@@ -67,7 +67,7 @@ void sayWhyNothing(const link::Receiver& receiver, link::LinkWatch& watch);
 std::string health(const HostStatistics& statistics, const link::Senders& senders);
 void printFirstBad(const HostStatistics& statistics);
 
-/// The command `feed record`. Returns the exit code.
+/// Runs the command `feed record`. Returns the exit code.
 int recordFeed(const FeedOptions& options);
 
 }  // namespace trimtab::cli

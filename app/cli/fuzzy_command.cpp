@@ -37,7 +37,7 @@ Result<TuningParameters> readPolicy(std::string_view text, const std::string& wh
   parameters.policy.enabled = true;
   return parameters;
 }
-/// By --format, else by the file's ending.
+/// Returns the format of --format, else of the file's ending.
 std::optional<RuleFormat> formatOf(const FuzzyOptions& options, const std::string& file) {
   if (!options.format.empty()) return options.format == "fis" ? RuleFormat::matlab : RuleFormat::fuzzylite;
   const auto format = ruleFormatOf(file);

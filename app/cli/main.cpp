@@ -28,7 +28,8 @@ int writeOut(const std::string& output, const std::string& text) {
 
 namespace {
 
-/// A program that reads our output must not take half of it for all. `exitCode` is that of the command.
+/// Returns failure if the output could not be written, because a program that reads it must not mistake half
+/// of it for all; else `exitCode`, which is that of the command.
 int finished(int exitCode) {
   std::cout.flush();
   const int error = std::fflush(stdout) != 0 ? errno : 0;

@@ -25,7 +25,7 @@ Result<harness::Results> readResults(const std::filesystem::path& folder) {
   return harness::parseResults(*text, file.string());
 }
 
-/// Units of all runs side by side. Flights are told apart by their terrain too.
+/// Puts the units of all runs side by side. Flights are told apart by their terrain too.
 void append(const harness::Results& run, harness::Results& all) {
   const auto named = [&run](harness::UnitName name) {
     name.flight += ", " + run.terrain;
@@ -43,7 +43,7 @@ void append(const harness::Results& run, harness::Results& all) {
   all.terrain += (all.terrain.empty() ? "" : "; ") + run.terrain;
 }
 
-/// What must be equal for figures to stand in one table.
+/// Returns what keeps the figures of two runs from standing in one table.
 Findings mismatch(const harness::Results& first, const harness::Results& run, const std::string& folder) {
   Findings findings;
   const auto compare = [&](const char* key, const std::string& expected, const std::string& found) {

@@ -173,7 +173,7 @@ int printSceneryInfo(const std::filesystem::path& path, bool json) {
   const auto scenery = terrain::readScenery(path);
   report(scenery.findings());
   if (!scenery) return kRefused;
-  // What can be read is told all the same.
+  // Findings are no reason to stop: whatever could be read is reported.
   const bool whole = !hasError(scenery.findings());
   std::map<std::string, std::uint64_t> materials;
   Json meshes = Json::array();

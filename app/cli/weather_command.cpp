@@ -28,7 +28,7 @@ std::string nameOf(WeatherStep step) {
   return std::string(findRow("weather.step")->choices[static_cast<std::size_t>(step)].name);
 }
 
-/// The steps that `--step` names, or all but clear.
+/// Returns the steps that `--step` names, or all but clear.
 std::vector<WeatherStep> stepsOf(const std::vector<std::string>& names) {
   std::vector<WeatherStep> steps;
   for (int i = int(WeatherStep::rain_light); i <= int(WeatherStep::snow_heavy); ++i) {

@@ -24,17 +24,18 @@ struct BuilderLevel {
   SurfaceError error;
 };
 std::vector<BuilderLevel> treeLevels(const terrain::StaticLodTerrain& trees, std::size_t tile);
-/// Returns the levels of patches, coarsest first, without depths that have no triangle in the tile. Empty if
-/// a page cannot be read.
+/// Returns the levels of patches, coarsest first, without depths that have no triangle in the tile. Returns
+/// an empty list if a page cannot be read.
 std::vector<BuilderLevel> patchLevels(const terrain::Database& terrain,
                                       const terrain::StaticLodTerrain& trees, std::size_t tile);
 /// Returns what posts alone lose: the error of the bilinear surface of the posts at the source's vertices.
 SurfaceError postsError(const terrain::Database& terrain, const terrain::StaticLodTerrain& trees,
                         std::size_t tile);
 
-/// Returns the level with the most triangles, but no more than `triangles`. Null if there is none.
+/// Returns the level with the most triangles, but no more than `triangles`. It is null if there is none.
 const BuilderLevel* ofNoMoreTriangles(const std::vector<BuilderLevel>& levels, std::uint64_t triangles);
-/// Returns the level with the fewest triangles whose RMS error is at most `rmsM` metres. Null if none.
+/// Returns the level with the fewest triangles whose RMS error is at most `rmsM` metres. Returns null if
+/// there is none.
 const BuilderLevel* ofNoGreaterRms(const std::vector<BuilderLevel>& levels, double rmsM);
 
 }  // namespace trimtab::experiment

@@ -32,7 +32,7 @@ struct AltitudeSums {
   double differing = 0;
 };
 
-/// What the decision sees is the named altitude; the eye stands so far above the ground.
+/// The decision sees the named altitude; the eye is at that height above the ground.
 FrameRequest requestAt(const Setup& setup, const ValidatedParameters& parameters, const Place& place,
                        double altitudeFt) {
   AircraftState state;
@@ -62,7 +62,7 @@ Plot casesOf(const char* file, const char* title, const char* yLabel, const Tabl
   return plot;
 }
 
-/// Triangles of each case as a share of the plain case's, published and ours.
+/// Plots the triangles of each case as a share of the plain case's, published and ours.
 Plot sharesOf(const Table& published, const Table& measured) {
   Plot plot = casesOf("culling-triangles", "Triangles drawn, as a share of the unculled scene", "share",
                       measured, "triangles");

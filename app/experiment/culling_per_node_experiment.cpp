@@ -22,7 +22,8 @@ constexpr double kFarthestFt = 5e6;
 enum class Loop { frame, node };
 constexpr std::array<const char*, 2> kLoops{"frame", "node"};
 
-/// The request for a level line of sight, as a helmet has it, decided for a height or distance and a pitch.
+/// Returns the request for a level line of sight, as a helmet has it, decided for a height or distance and a
+/// pitch.
 FrameRequest requestFor(const Setup& setup, const ValidatedParameters& parameters, const Place& place,
                         double feet, double pitchDeg) {
   AircraftState state;
@@ -39,7 +40,8 @@ FrameRequest requestFor(const Setup& setup, const ValidatedParameters& parameter
   return request;
 }
 
-/// The distance up to which the rule base, asked with a distance for the altitude, wants nodes tested, feet.
+/// Returns the distance up to which the rule base, asked with a distance for the altitude, wants nodes
+/// tested, feet.
 double testedWithinFt(const std::function<FrameDecision(double feet)>& decide) {
   if (!decide(0).occlusionResolution) return 0;
   if (decide(kFarthestFt).occlusionResolution) return kFarthestFt;

@@ -18,7 +18,7 @@
 /// of its own, current on the calling thread.
 namespace trimtab::experiment {
 
-/// What the experiment on the budget flies.
+/// Holds what the experiment on the budget flies.
 struct HoldSetup {
   std::optional<HeadLog> head;     ///< if unset, a scripted sweep
   std::optional<double> budgetMs;  ///< if unset, 0.6 of the median image of mode *off*
@@ -83,9 +83,9 @@ struct CalibratedWeather {
 };
 Result<CalibratedWeather> calibrateWeather(const Setup& setup, const WeatherCalibration& wanted);
 
-/// What documents C and D leave open: a head sweep, a flight with a head log, one through changing weather
-/// and a steady one, in the modes *off*, *as published*, *policy* and *hold*, under a budget of 0.6 of the
-/// median image of *off*.
+/// Measures what documents C and D leave open: a head sweep, a flight with a head log, one through changing
+/// weather and a steady one, in the modes *off*, *as published*, *policy* and *hold*, under a budget of 0.6
+/// of the median image of *off*.
 Result<Report> runHold(const Setup& setup);
 
 /// Document E: the tile nearest to the published triangles, built with the published n. Needs scenery.

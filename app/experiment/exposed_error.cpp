@@ -14,7 +14,7 @@ namespace {
 /// Times of an exposure at which the scene is drawn: of a sweep at 180 degrees a second, some 7 px apart.
 constexpr int kMostTimes = 8;
 
-/// The attitude a part of the way back from `now` to `then`; a part above 1 goes beyond.
+/// Returns the attitude a part of the way back from `now` to `then`; a part above 1 goes beyond.
 Attitude back(const Attitude& now, const Attitude& then, double part) {
   const auto mixed = [part](Degrees a, Degrees b) { return a + wrapped180(b - a) * part; };
   return {mixed(now.heading, then.heading), mixed(now.pitch, then.pitch), mixed(now.roll, then.roll)};

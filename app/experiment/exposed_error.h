@@ -7,7 +7,7 @@
 
 namespace trimtab::experiment {
 
-/// How far an image is from its reference, in mean FLIP.
+/// Says how far an image is from its reference, in mean FLIP.
 struct ExposedError {
   double sharp = 0;    ///< as if the image were looked at in peace
   double smeared = 0;  ///< with both images smeared by the motion of the line of sight during the exposure

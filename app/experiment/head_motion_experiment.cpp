@@ -26,7 +26,7 @@ std::vector<double> part(const std::vector<double>& values, int from, int to) {
   return {values.begin() + from, values.begin() + to};
 }
 
-/// Mean difference of a channel, of 255.
+/// Returns the mean difference of a channel, of 255.
 double meanDifference(const MotionRun& a, const MotionRun& b) {
   double sum = 0, count = 0;
   for (std::size_t p = 0; p < a.pictures.size() && p < b.pictures.size(); ++p)
@@ -38,14 +38,14 @@ double meanDifference(const MotionRun& a, const MotionRun& b) {
   return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The first image with a coarser level; the sweep's end where there is none.
+/// Returns the first image with a coarser level; the sweep's end if there is none.
 int dwellEnds(const MotionRun& run) {
   const auto coarse = std::find_if(run.lodScale.begin(), run.lodScale.end(), [](double s) { return s > 1; });
   return std::min(int(coarse - run.lodScale.begin()), kStill + kSweep);
 }
 
-/// The rows of one form of the terrain. Returns from which image on the modes are compared: the same stretch
-/// of the sweep for all, after the dwell of the mode that has one.
+/// Adds the rows of one form of the terrain. Returns from which image on the modes are compared: the same
+/// stretch of the sweep for all, after the dwell of the mode that has one.
 int addRows(Table& table, const std::string& form, const MotionRuns& runs) {
   const int from = std::min(dwellEnds(runs[1]), kStill + kSweep - 1), to = kStill + kSweep;
   const auto row = [&](const char* quantity, const auto& valueOf) {

@@ -19,7 +19,7 @@ constexpr int kAsked = 40;
 /// A rate that falls by more than this share from one image to the next is a rapid drop.
 constexpr double kDrop = 0.3;
 
-/// One pass through the profile; the first pass also counts and keeps pictures. Returns false if `go` does.
+/// Flies once through the profile; the first pass also counts and keeps images. Returns false if `go` does.
 bool pass(Stage& stage, const Setup& setup, const ValidatedParameters& parameters,
           const GeodeticPosition& eye, const HeadProfile& profile, const std::function<bool(int)>& kept,
           bool first, MotionRun& run, const auto& go) {

@@ -11,7 +11,7 @@
 #include "trimtab/hold/cost_model.h"
 #include "trimtab/measure/paired_ratio.h"
 
-/// What the experiments of document C share: a head that is moved over a place, in each mode of the
+/// Declares what the experiments of document C share: a head that is moved over a place, in each mode of the
 /// optimizer.
 namespace trimtab::experiment {
 
@@ -29,14 +29,14 @@ inline constexpr std::array<MotionMode, 4> kMotionModes{
      {MotionControl::with_restoration, "with_restoration"},
      {MotionControl::with_restoration, "hold", true}}};
 
-/// How a head moves: its attitude relative to the aircraft at each second from 0 on.
+/// Describes how a head moves: its attitude relative to the aircraft at each second from 0 on.
 struct HeadProfile {
   double seconds = 0;
   std::function<Attitude(double seconds)> at;
   int images() const { return int(std::lround(seconds * kImagesPerS)); }
 };
 
-/// What one mode drew, by image.
+/// Holds what one mode drew, by image.
 struct MotionRun {
   std::vector<std::vector<double>> ms;  ///< by image, one for each pass
   std::vector<double> vertices, lodScale, blur;
@@ -63,13 +63,13 @@ Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& 
 /// slowest image may be any disturbance of the machine.
 PairedRatio gainOf(const MotionRun& before, const MotionRun& with, int from, int to, double quantile);
 /// Says whether document C's gain, 1.7 times the smallest rate, shows over this form of the terrain, as far
-/// as the intervals tell.
+/// as the intervals show.
 std::string gainText(const std::string& form, const MotionRun& before, const MotionRun& with, int from,
                      int to);
 
 /// Returns how often in each pass the rate falls rapidly from one image to the next.
 std::vector<double> rapidDrops(const MotionRun& run);
-/// Says whether restoration leaves fewer rapid drops, as far as the passes tell.
+/// Says whether restoration leaves fewer rapid drops, as far as the passes show.
 std::string rapidDropsText(const std::string& form, const MotionRuns& runs);
 
 /// Returns the forms of the terrain that an experiment compares, as they are drawn: what the preset asks for,

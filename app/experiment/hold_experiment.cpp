@@ -46,7 +46,7 @@ std::size_t mostInASecond(const std::vector<std::size_t>& images, const Strain& 
   return most;
 }
 
-/// What came of the levers after the strain.
+/// Says how the levers settled after the strain.
 struct Settling {
   double ms;                 ///< from the end of the strain until they stay; NaN without images after it
   double slowestOverMedian;  ///< of the images until then, over the median of those that follow
@@ -120,7 +120,7 @@ void addRow(Table& table, const Strain& strain, const std::string& mode, double 
                         quantileOf(ms, 0.99) / heldP99Ms});
 }
 
-/// One number of each image over the strain, a line a mode.
+/// Plots one number of each image over the strain, one line for each mode.
 Plot linesOf(const Strain& strain, const Runs& runs, std::vector<double> HoldRun::*of) {
   Plot plot;
   plot.xLabel = "time (s)";
@@ -149,7 +149,7 @@ void addPlots(const Strain& strain, const Runs& runs, double budgetMs, std::size
   for (Plot* plot : {&ms, &error, &scale}) report.plots.push_back(std::move(*plot));
 }
 
-/// What flies, and what is told meanwhile: how many flights of the strain are done, and what is flown.
+/// Holds what flies, and `go`, which hears how many flights of the strain are done and what is flown.
 struct Desk {
   const Stages& stages;  ///< by mode
   Referee& referee;
@@ -266,7 +266,7 @@ GeodeticPosition eyeAbove(const Place& place) {
 }
 
 /// Returns what a program would load at its start: the model after a sweep from another place than that of
-/// the strains. Nothing if the person cancels.
+/// the strains. Returns nothing if the person cancels.
 std::optional<CostModel> learned(const Desk& desk) {
   const std::vector<Place> places = placesOf(desk.setup, 3);
   const auto parameters =
@@ -279,7 +279,7 @@ std::optional<CostModel> learned(const Desk& desk) {
   return pilot.model();
 }
 
-/// The strains that the terrain, the flight and the head allow.
+/// Returns the strains that the terrain, the flight and the head allow.
 Result<std::vector<Strain>> strainsOf(const Setup& setup, std::vector<std::string>& notes) {
   std::vector<Strain> strains;
   const std::vector<Place> places = placesOf(setup, 1);

@@ -20,7 +20,7 @@ constexpr std::size_t kWarmUp = 60;
 /// Images of a strain that show what levers lose; they lie between those that are measured afterwards.
 constexpr std::size_t kLossImages = 5;
 
-/// The middle of the flight, from where on it is over the terrain for so long.
+/// Returns the middle of the flight, from where on it is over the terrain for so long.
 std::optional<double> middleOf(const Setup& setup, double seconds) {
   if (!setup.flight || setup.flight->states.empty()) return std::nullopt;
   const double begin = setup.flight->beginS(), end = setup.flight->states.back().time;

@@ -14,8 +14,8 @@
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/session/session.h"
 
-/// What the experiment and the benchmark of the budget share: flights that strain the frame, drawn in four
-/// modes.
+/// Declares what the experiment and the benchmark of the budget share: flights that strain the frame, drawn
+/// in four modes.
 namespace trimtab::experiment {
 
 /// States one image apart, with head and weather in them.
@@ -26,15 +26,15 @@ struct Strain {
   std::size_t from = 0, to = 0;
 };
 
-/// The head rests, turns 180 degrees in one second in steps of 1/200 s, and rests.
+/// Returns the strain of a head that rests, turns 180 degrees in one second in steps of 1/200 s, and rests.
 Strain sweepStrain(const GeodeticPosition& eye);
-/// A piece of the flight at 60 images a second, from its middle on, with the head of a log. Nothing if the
-/// flight is not over the terrain there.
+/// Returns a piece of the flight at 60 images a second, from its middle on, with the head of a log. Returns
+/// nothing if the flight is not over the terrain there.
 std::optional<Strain> headStrain(const Setup& setup, const HeadLog& head, double seconds);
-/// The same while the host turns the weather from clear to light rain, heavy rain, heavy snow and clear
-/// again.
+/// Returns the same while the host turns the weather from clear to light rain, heavy rain, heavy snow and
+/// clear again.
 std::optional<Strain> weatherStrain(const Setup& setup, const HeadLog& head, double seconds);
-/// The same flight in clear air and with a head that rests.
+/// Returns the same flight in clear air and with a head that rests.
 std::optional<Strain> steadyStrain(const Setup& setup, double seconds);
 
 enum class HoldMode { off, as_published, policy, hold };
@@ -70,7 +70,7 @@ class Referee {
   scene::ErrorMeter meter_;
 };
 
-/// What one mode drew, by image.
+/// Holds what one mode drew, by image.
 struct HoldRun {
   std::vector<double> ms;  ///< work time
   std::vector<double> errorPx, renderScale, particles;
@@ -123,7 +123,7 @@ class HoldPilot {
 /// images, returns false.
 std::optional<std::vector<HoldRun>> flyInTurns(std::span<HoldPilot* const> pilots, const Strain& strain,
                                                const std::function<bool(double part)>& go);
-/// The same with one pilot.
+/// Does the same with one pilot.
 std::optional<HoldRun> fly(HoldPilot& pilot, const Strain& strain,
                            const std::function<bool(double part)>& go);
 

@@ -18,12 +18,12 @@ namespace trimtab::experiment {
 namespace {
 
 constexpr double kImageS = 1.0 / 60;
-/// How long a moment is led up to: head motion needs ten fast images for its first blur.
+/// Each moment has a lead of this length, seconds: head motion needs ten fast images for its first blur.
 constexpr double kLeadS = 1.5;
 constexpr double kSweepDegPerS = 180, kSweepToDeg = 90;
 constexpr double kFogVisibilityM = 10000;
 
-/// From side to side at a constant rate.
+/// Returns the attitude of a head that turns from side to side at a constant rate.
 Attitude sweptHead(double time) {
   const double turn = std::fmod(std::max(time, 0.0) * kSweepDegPerS, 4 * kSweepToDeg);
   return {Degrees{turn < 2 * kSweepToDeg ? turn - kSweepToDeg : 3 * kSweepToDeg - turn}, {}, {}};
@@ -61,7 +61,7 @@ struct Condition {
   std::vector<Moment> moments;
 };
 
-/// Too few frames for an interval are NaN, which is no number in a file either.
+/// An interval of too few frames is NaN, which is no number in a file either.
 Estimate estimate(double median, double low, double high) {
   if (std::isfinite(low) && std::isfinite(high)) return {median, low, high};
   return {median, kNan, kNan};
@@ -176,7 +176,7 @@ class Run {
     Series from, to;
   };
 
-  /// The error of a moment; what is left of earlier images counts only if it blurs.
+  /// Returns the error of a moment; what is left of earlier images counts only if it blurs.
   template <class Set>
   void measure(const Moment& moment, const Set& set, Series& series) {
     std::vector<FrameRequest> before;
@@ -187,8 +187,8 @@ class Run {
     series.pixels.push_back(error.geometricMaxPx);
   }
 
-  /// Both ends in turns; the frame after the one before it, so that it does the work that a flight asks of
-  /// it.
+  /// Both ends take turns, and each frame follows the one before it, so that it does the work that a flight
+  /// asks of it.
   template <class At>
   void time(const Moment& moment, const At& at, const LeverageRow& row, std::size_t frame, Ends& ends) {
     const auto inFlight = [&](double value) {

@@ -13,7 +13,7 @@
 #include "trimtab/policy/levers.h"
 #include "trimtab/policy/signals.h"
 
-/// What each lever of a policy is worth over a flight: milliseconds won against image lost.
+/// Measures what each lever of a policy is worth over a flight: milliseconds won against image lost.
 namespace trimtab::experiment {
 
 /// A median over the frames with the interval that holds the true one with 95 % confidence; ends that are NaN
@@ -46,7 +46,7 @@ struct Leverage {
   std::string machine, flight, terrain, preset;
   std::size_t frames = 0;
   int widthPx = 0, heightPx = 0, repeats = 0;
-  /// What other programs took of the machine meanwhile, 0 to 1; NaN: unknown.
+  /// Share of the machine that other programs used meanwhile, 0 to 1; NaN: unknown.
   double othersShare = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -62,8 +62,8 @@ struct Moment {
 
 /// Returns the moments at even rows of the flight above the terrain, each with a session of its own that has
 /// flown the second and a half before it at 60 images a second. With `headSweeps`, the head turns 180 degrees
-/// a second from side to side. No image is drawn, so a policy knows neither load nor triangles. Empty if no
-/// row lies above the terrain.
+/// a second from side to side. No image is drawn, so a policy knows neither load nor triangles. Returns an
+/// empty list if no row lies above the terrain.
 std::vector<Moment> momentsOf(const Setup& setup, const ValidatedParameters& parameters, bool headSweeps);
 
 /// Measures all levers over `setup.frames` frames of the flight. Each frame is drawn at both ends in turns,

@@ -58,7 +58,7 @@ std::string formatted(const char* format, Values... values) {
   return text;
 }
 
-/// What the interval of the time won says.
+/// Returns what the interval of the time won says.
 const char* verdictOf(const LeverageRow& row) {
   switch (differenceOf(PairedDifference{row.wonMs.median, row.wonMs.low, row.wonMs.high})) {
     case MeasuredDifference::more:

@@ -14,7 +14,7 @@
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/grid/progress.h"
 
-/// What all experiments share: a GL context, a renderer and places to look from.
+/// Declares what all experiments share: a GL context, a renderer and places to look from.
 namespace trimtab::experiment {
 
 class Stage {

@@ -21,7 +21,8 @@ struct Trial {
 constexpr std::array<Trial, 4> kTrials{
     {{140000, 140000}, {140000, 120000}, {140000, 100000}, {100000, 140000}}};
 
-/// Against the clear frame: document D's words for slower and faster, where the interval is sure of them.
+/// Compares with the clear frame: returns document D's words for slower and faster where the interval is sure
+/// of them.
 const char* resultOf(const PairedRatio& ratio, double tolerance) {
   if (ratio.low > 1 + tolerance) return "falls short";
   if (ratio.high < 1 - tolerance) return "over-frame";

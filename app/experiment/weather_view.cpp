@@ -13,7 +13,8 @@ namespace {
 
 /// Particles fall as time goes on: frames are this far apart.
 constexpr double kFrameS = 1.0 / 60;
-/// What was just built, compiled or grown, or drawn by another renderer, is no frame's cost.
+/// So many frames do not count: what was just built, compiled or grown, or drawn by another renderer, is no
+/// frame's cost.
 constexpr int kUncounted = 3;
 /// Clear and held frames are drawn in turns of so many frames that count. In the first turns of a cell the
 /// arbiter settles on what falls now, and the others are compared.
@@ -23,7 +24,7 @@ constexpr int kTurn = 9, kSettlingTurns = 10, kTurns = 6;
 constexpr int kLearningTurns = 12;
 /// The clear frame's time is the median of the last turns, because the machine's speed changes.
 constexpr int kRemembered = 3 * kTurn;
-/// So many pairs have an interval that leaves out the farthest at either end.
+/// So many pairs have an interval that leaves out the largest and the smallest ratio.
 constexpr std::size_t kTurnsOfEach = 9;
 
 }  // namespace

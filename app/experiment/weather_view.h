@@ -15,8 +15,8 @@
 #include "trimtab/weather/calibrate.h"
 #include "trimtab/weather/weather.h"
 
-/// What the experiments of document D share: a view whose weather and vertices are set, and the rows of its
-/// table.
+/// Declares what the experiments of document D share: a view whose weather and vertices are set, and the rows
+/// of its table.
 namespace trimtab::experiment {
 
 /// Rain or snow, with its steps by density.
@@ -55,7 +55,7 @@ class WeatherView {
   /// Draws frames of each weather in turns, so often that pairs of turns have an interval. No weather is
   /// always first. Returns the medians of the turns for each weather, milliseconds of work.
   std::vector<std::vector<double>> inTurns(std::span<const WeatherDecision> weathers);
-  /// What the arbiter made of a frame.
+  /// Holds what the arbiter made of a frame.
   struct Held {
     PairedRatio ofClear;  ///< its work time over that of the clear frame
     HeldLevers levers;

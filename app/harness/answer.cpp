@@ -13,10 +13,10 @@
 namespace trimtab::harness {
 namespace {
 
-/// What the budget holds: this part of the frames.
+/// A budget is held if this share of the frames is within it.
 constexpr double kHeldShare = 0.95;
 
-/// What was not measured is worse than whatever was.
+/// Returns the value, or infinity if it was not measured: that is worse than whatever was.
 double orWorst(double value) {
   return std::isnan(value) ? kInfinity : value;
 }
@@ -69,7 +69,7 @@ class Judge {
     return differenceOf(*units_[with], *units_[row], confidence_);
   }
 
-  /// The best of some rows: the one that leads, then those that do not differ from it.
+  /// Returns the best of some rows: the one that leads, then those that do not differ from it.
   std::vector<std::size_t> bestOf(const Answer& answer, std::vector<std::size_t> rows) const {
     const auto rank = [&](std::size_t row) {
       return std::tuple(orWorst(answer.rows[row].flip), orWorst(answer.rows[row].medianMs));
@@ -113,7 +113,7 @@ std::string numbersText(const Answer& answer) {
   return "FLIP " + range(&AnswerRow::flip) + ", p95 " + range(&AnswerRow::p95Ms) + " ms";
 }
 
-/// Who comes next of those that fit, and by what.
+/// Returns which of those that fit comes next, and by how much it is behind.
 std::string nextText(const Answer& answer, const Judge& judge, const std::vector<std::size_t>& fitting) {
   std::vector<std::size_t> others;
   for (const std::size_t row : fitting)

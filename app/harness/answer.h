@@ -10,8 +10,8 @@
 /// Answers what a person asks of results: which preset fits the budget, and which of those is the best.
 namespace trimtab::harness {
 
-/// Whether 95 % of the frames of a flight are within the budget, as far as those that were measured tell; the
-/// best first.
+/// Says whether 95 % of the frames of a flight are within the budget, as far as the measured frames can tell;
+/// the best comes first.
 enum class Fit {
   yes,     ///< it is sure by 95 %
   unsure,  ///< the measured frames are too few, or lie too close to the budget, to tell
@@ -32,13 +32,13 @@ struct AnswerRow {
   Fit fit = Fit::no;
 };
 
-/// How one unit of a flight compares with another. The verdict uses one of the two: FLIP where it differs,
-/// and the frame time where it does not.
+/// Says how one unit of a flight compares with another. The verdict uses one of the two: FLIP where it
+/// differs, and the frame time where it does not.
 struct UnitDifference {
   MeasuredDifference flip = MeasuredDifference::unknown;
   PairedRatio frameTime;
 
-  /// What decides between the two: less is better.
+  /// Returns the difference that decides between the two: less is better.
   MeasuredDifference verdict() const;
 };
 

@@ -21,7 +21,8 @@ using Clock = std::chrono::steady_clock;
 using experiment::blurs;
 using experiment::kLongestTrace;
 
-/// A decision takes less than a clock tick: many, each from the memory as the row met it.
+/// Returns the mean time of many decisions, each from the memory as the row met it: one takes less than a
+/// clock tick.
 double decideMilliseconds(const FrameInput& input, const ValidatedParameters& parameters,
                           const DecisionMemory& before) {
   constexpr int kRuns = 9, kDecisions = 16;
@@ -37,7 +38,8 @@ double decideMilliseconds(const FrameInput& input, const ValidatedParameters& pa
   return window.median();
 }
 
-/// How long the slowest lever that the policy moves takes from one end of its range to the other.
+/// Returns how long the slowest lever that the policy moves needs from one end of its range to the other,
+/// seconds.
 double crossingS(const CompiledPolicy& policy) {
   double seconds = 0;
   for (const LeverRow& row : kLeverRows) {
@@ -49,7 +51,7 @@ double crossingS(const CompiledPolicy& policy) {
   return seconds;
 }
 
-/// Which rows of a flight are drawn so that their images are fed back, one flag for each row.
+/// Returns which rows of a flight are drawn so that their images are fed back, one flag for each row.
 std::vector<bool> drawnRows(const Flying& flying, const Flight& flight, const Feedback& feedback,
                             const std::vector<std::size_t>& rows) {
   std::vector<bool> drawn(flight.states.size(), false);
@@ -60,7 +62,7 @@ std::vector<bool> drawnRows(const Flying& flying, const Flight& flight, const Fe
   }
   const auto& states = flight.states;
   for (const std::size_t row : rows)
-    // Until a row that was drawn for the row to measure before this one.
+    // Goes back until a row that was drawn for the row to measure before this one.
     for (std::size_t r = row; r-- > 0 && !drawn[r];) {
       const bool recent = states[row].time - states[r].time <= feedback.rememberedS;
       if (!recent && row - r > feedback.rememberedImages) break;
@@ -126,7 +128,7 @@ class Pilot {
     return {request, {before_.end() - static_cast<std::ptrdiff_t>(kept), before_.end()}};
   }
 
-  /// Where time decides nothing, counts depend on the requests alone.
+  /// Draws alike at every run where time decides nothing, so that counts depend on the requests alone.
   void draw(const FrameRequest& request, double time) {
     session_.finished(feedback_.times ? stage_.fly(request) : stage_.draw(request), time);
     if (parameters_->hold.enabled)
@@ -152,7 +154,7 @@ Feedback feedbackOf(const ValidatedParameters& parameters) {
   if (const CompiledPolicy* policy = parameters.policy()) {
     feedback.counts = policy->asks(Signal::triangles);
     feedback.times = policy->asks(Signal::load);
-    // What a lever moves changes what is drawn, which may move it back.
+    // A lever that moves changes what is drawn, which may move it back.
     if (feedback.any()) remember(2 * crossingS(*policy), SignalTracker::kLoadImages);
   }
   const MotionParameters& motion = parameters->motion;

@@ -15,11 +15,11 @@
 /// Flies presets over flights as an image generator does, and keeps the requests of the rows to measure.
 namespace trimtab::harness {
 
-/// What the decisions of a preset depend on in the images that it has drawn before.
+/// Says how the decisions of a preset depend on the images that it has drawn before.
 struct Feedback {
   bool counts = false;  ///< triangles or vertices
   bool times = false;   ///< how long images take, so that two flights of the same rows may decide otherwise
-  /// How long an image may have an effect, in seconds of the flight and in images.
+  /// Longest time for which an image may have an effect, in seconds of the flight and in images.
   double rememberedS = 0;
   std::size_t rememberedImages = 0;
 
@@ -27,7 +27,7 @@ struct Feedback {
 };
 Feedback feedbackOf(const ValidatedParameters& parameters);
 
-/// How presets fly.
+/// Says how presets fly.
 struct Flying {
   std::shared_ptr<const terrain::Database> terrain;
   int widthPx = 0, heightPx = 0;

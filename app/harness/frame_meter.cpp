@@ -57,7 +57,7 @@ class FrameMean {
   std::size_t flights_ = 0;
 };
 
-/// The keys of the signals that a decision asked for and nobody knew.
+/// Returns the keys of the signals that a decision asked for and nobody knew.
 std::vector<std::string> unknownSignals(const FlownFrame& frame) {
   std::vector<std::string> keys;
   for (const SignalRow& row : kSignalRows)
@@ -73,13 +73,14 @@ TraceCounts countsOf(const VisibleSet& visible) {
           visible.occluded,  visible.beyondVisibility, visible.backFacing};
 }
 
-/// What is drawn must not depend on what was drawn before, nor on where a run was taken up again.
+/// Returns the request without the memory of earlier frames: what is drawn must not depend on what was drawn
+/// before, nor on where a run was resumed.
 FrameRequest alone(FrameRequest request) {
   request.skips.littleHidden = false;
   return request;
 }
 
-/// The errors and counts of a frame: of its one image, or of what each repeat flew to.
+/// Measures the errors and counts of a frame: of its one image, or of what each repeat flew to.
 void measureImages(experiment::Stage& stage, scene::ErrorMeter& meter, const Plan& plan,
                    const FlownFrame& frame, MeasuredFrame& measured) {
   FrameMean mean;
@@ -87,7 +88,7 @@ void measureImages(experiment::Stage& stage, scene::ErrorMeter& meter, const Pla
   for (const FlownFrame::Image& image : frame.images) {
     MeasuredFrame one;
     one.error = meter.measure(image.request, image.before, nullptr);
-    // What the step from the row before pages in, with nothing there but that row's.
+    // The page time is that of the step from the row before, with only that row's pages in memory.
     stage.setTerrain(plan.terrain);
     if (!image.before.empty()) stage.draw(image.before.back());
     const FrameResult first = stage.draw(alone(image.request));

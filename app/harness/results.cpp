@@ -71,7 +71,7 @@ const Unit* unitOf(const std::vector<Unit>& units, const UnitName& name) {
   return at == units.end() ? nullptr : &*at;
 }
 
-/// A cell that spreadsheets take as one.
+/// Returns a cell that spreadsheets read as one.
 std::string cellText(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -147,7 +147,7 @@ Summary summarise(const Unit& unit, const Quantity& quantity) {
   if (values.empty()) return {kNan, kNan, kNan, kNan, kNan};
   Summary summary;
   for (const double value : values) summary.mean += value / static_cast<double>(values.size());
-  // From the good end to the bad one.
+  // The sign leads from the good end to the bad one.
   const double sign = quantity.largerIsWorse ? 1 : -1;
   for (double& value : values) value *= sign;
   summary.median = quantileOf(values, 0.5) * sign;

@@ -14,7 +14,7 @@
 #include "trimtab/measure/trace.h"
 #include "trimtab/units/result.h"
 
-/// What `trimtab-cli bench` measures: run time against error over flights, presets and cases.
+/// Declares what `trimtab-cli bench` measures: run time against error over flights, presets and cases.
 namespace trimtab::harness {
 
 /// One preset in one culling case along one flight.
@@ -79,7 +79,7 @@ struct Results {
   std::vector<Unit> units;
   std::vector<Comparison> comparisons;
   std::vector<std::string> notes;  ///< conditions
-  /// What other programs took of the machine meanwhile, 0 to 1; NaN: unknown.
+  /// Share of the machine that other programs used meanwhile, 0 to 1; NaN: unknown.
   double othersShare = std::numeric_limits<double>::quiet_NaN();
 };
 

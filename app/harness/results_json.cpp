@@ -35,12 +35,12 @@ Json ratioJson(const PairedRatio& ratio) {
           {"pairs", ratio.pairs}};
 }
 
-/// Null: the frames do not tell.
+/// Returns null if the frames do not say.
 Json fitJson(Fit fit) {
   return fit == Fit::unsure ? Json() : Json(fit == Fit::yes);
 }
 
-/// What tables of results show. It is derived from the frames, and not read again.
+/// Returns what tables of results show. It is derived from the frames, and not read again.
 Json summaryJson(const AnswerRow& row) {
   return {{"median_ms", numberJson(row.medianMs)},
           {"p95_ms", numberJson(row.p95Ms)},
@@ -66,7 +66,7 @@ Json answerJson(const Answer& answer) {
           {"why", answer.why}};
 }
 
-/// A list of a frame's cells: row, time, quantities, repeats. Names once a unit, not once a frame.
+/// Returns the list of a frame's cells: row, time, quantities, repeats. Names once a unit, not once a frame.
 Json columnsJson() {
   Json columns = {"row", "time_s"};
   for (const Quantity& quantity : quantities()) columns.push_back(std::string(quantity.key));
@@ -123,7 +123,7 @@ class Reader {
     if (text.size() > kShown) text = text.substr(0, kShown) + "...";
     findings.push_back({Severity::error, where_, place, std::move(expected), std::move(text)});
   }
-  /// The member, or a discarded value where there is none.
+  /// Returns the member, or a discarded value if there is none.
   static const Json& member(const Json& object, const std::string& key) {
     static const Json kNothing = Json(Json::value_t::discarded);
     const auto at = object.is_object() ? object.find(key) : object.end();

@@ -261,7 +261,7 @@ Findings Run::measureFlight(std::size_t flight, Results& results) {
   return {};
 }
 
-/// Which presets were given what of their own images.
+/// Returns which presets were given what of their own images.
 std::vector<std::string> Run::notesOnFeedback() const {
   std::vector<std::string> notes;
   for (const auto& preset : plan_.presets) {

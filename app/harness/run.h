@@ -30,8 +30,8 @@ struct Plan {
   int widthPx = 1280, heightPx = 720;
   std::size_t frames = 60;  ///< of each flight, evenly spread over its rows above the terrain
   std::size_t repeats = 5;  ///< timed draws of a frame
-  /// Whether presets whose decisions depend on their own images draw every row of a flight, instead of those
-  /// rows that may have an effect on a sampled frame.
+  /// Presets whose decisions depend on their own images draw every row of a flight, instead of those rows
+  /// that may have an effect on a sampled frame.
   bool whole = false;
   std::size_t worst = 3;  ///< most worst frames kept of each unit
   bool skips = true;      ///< whether to measure what skipped work saved

@@ -39,7 +39,7 @@ double millisecondsOf(const DrawFrame& draw, const FrameRequest& request) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// At most `most` of the values, evenly spread.
+/// Returns at most `most` of the values, evenly spread.
 std::vector<std::size_t> spread(const std::vector<std::size_t>& values, std::size_t most) {
   if (values.size() <= most) return values;
   std::vector<std::size_t> chosen;

@@ -26,7 +26,7 @@ std::string digest(std::string_view bytes) {
 
 std::string flightDigest(const Plan::NamedFlight& flight) {
   std::string text = flightCsv(flight.flight);
-  // What a flight's file has no columns for.
+  // These values have no columns in a flight's file.
   for (const AircraftState& state : flight.flight.states) {
     if (state.aboveGround) text += numberText(state.aboveGround->value()) + ' ';
     if (state.airspeed) text += numberText(state.airspeed->value()) + ' ';
@@ -45,7 +45,7 @@ std::string presetDigest(const ValidatedParameters& parameters) {
   return digest(text);
 }
 
-/// What a folder's measurements depend on, one text a thing, so that differences can be named.
+/// Returns what a folder's measurements depend on, one text for each thing, so that differences can be named.
 Json identity(const Plan& plan, const std::string& machine) {
   const terrain::TerrainInfo& info = plan.terrain->info();
   Json json = {

@@ -19,7 +19,7 @@ struct SweepAxis {
   std::vector<std::string> values;
 };
 
-/// Most parameters that are swept at once, and most values of each.
+/// At most so many parameters are swept at once, and each has at most so many values.
 inline constexpr std::size_t kMostAxes = 2, kMostValues = 64;
 
 /// Reads "KEY=A,B,C". Whether the key and the values are good is not checked here. Refuses a text without a
@@ -34,7 +34,7 @@ std::vector<Settings> combinations(const std::vector<SweepAxis>& axes);
 /// Returns the name of a preset with these settings, such as "default lod.screen_space_error_px=4".
 std::string sweptName(const std::string& base, const Settings& settings);
 
-/// What an answer says of a swept preset in one culling case.
+/// Holds what an answer says of a swept preset in one culling case.
 struct Sweep {
   static constexpr std::size_t kNotMeasured = std::numeric_limits<std::size_t>::max();
 

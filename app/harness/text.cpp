@@ -62,7 +62,7 @@ void appendRows(std::vector<Row>& rows, const Results& results, const Answer& an
   }
 }
 
-/// A line a skip, over all units; the document has each unit's.
+/// Appends a line for each skip, over all units; the document has each unit's.
 void appendSkips(std::string& text, const std::vector<Unit>& units) {
   struct Total {
     std::string name;

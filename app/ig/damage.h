@@ -20,7 +20,7 @@ class Damage {
   void setDatabase(std::shared_ptr<const terrain::Database> database);
   /// Call it after each image with the number of pages that could not be read so far.
   void look(std::uint64_t failedPages);
-  /// How many places were reported.
+  /// Returns how many places were reported.
   std::size_t places() const { return before_ + told_.size(); }
 
  private:

@@ -89,7 +89,7 @@ class LinkFeed : public Feed {
   double dueIn(double) const override { return std::numeric_limits<double>::infinity(); }
   bool finished() const override { return false; }
   void ready() const override {
-    // In one piece, for whoever waits for the line.
+    // Written in one piece, for whoever waits for the line.
     std::cerr << "listening on UDP port " + std::to_string(receiver_->port()) + " of " + address_ +
                      ", sender: " + receiver_->senders().allowed + "\n"
               << std::flush;

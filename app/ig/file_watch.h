@@ -23,7 +23,7 @@ class FileWatch {
   static constexpr double kPeriodS = 0.2;
 
   explicit FileWatch(std::filesystem::path file) : file_(std::move(file)), seen_(stampOf(file_)) {}
-  /// Reports whether the file is another one than at the last call. False while it is missing.
+  /// Reports whether the file is another one than at the last call. It is false while it is missing.
   bool changed();
 
  private:

@@ -16,7 +16,7 @@ constexpr std::string_view kHeader =
     "second,memory_kb,handles,threads,gl_objects,gl_buffers,gl_textures,gl_framebuffers,gl_renderbuffers,"
     "gl_vertex_arrays,gl_queries,gl_programs,gl_shaders,images,terrains,latency_p50_ms,latency_p99_ms\n";
 
-/// The resident memory, kB; 0 if the system does not say it.
+/// Returns the resident memory, kB; 0 if the system does not say it.
 long memoryKb() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -24,7 +24,7 @@ long memoryKb() {
   return 0;
 }
 
-/// The entries of a folder of /proc/self; reading it has a handle of its own.
+/// Counts the entries of a folder of /proc/self; reading it has a handle of its own.
 long entries(const char* folder) {
   std::error_code error;
   long count = 0;

@@ -19,7 +19,7 @@ namespace {
 
 /// Between packets a viewer sees the eye move on at this rate.
 constexpr double kViewerPeriodS = 1.0 / 60;
-/// The newest frames, whose cost the summary tells.
+/// The newest frames, whose cost the summary reports.
 constexpr std::size_t kFramesKept = 8192;
 
 class Loop {
@@ -51,13 +51,13 @@ class Loop {
 
  private:
   void complain(double now) {
-    // In one piece, for whoever waits for the line.
+    // The line is written in one piece, for whoever waits for it.
     if (const std::optional<std::string> line = run_.feed.complaint(now))
       std::cerr << "warning: " + *line + "\n" << std::flush;
   }
 
-  /// What came while the program made itself ready is decided like all else, but no picture can have shown it
-  /// in time.
+  /// Decides what came while the program made itself ready like all else, but no image can have shown it in
+  /// time.
   void begin() {
     run_.feed.ready();
     run_.feed.advance(run_.session, link::now());
@@ -82,7 +82,7 @@ class Loop {
     run_.wake.wait(seconds, run_.surface.eventFd());
   }
 
-  /// Whether a changed preset or terrain took effect.
+  /// Reloads what changed, and reports whether a changed preset or terrain took effect.
   bool reloaded() {
     if (!run_.watch) return false;
     bool stale = false;
@@ -91,7 +91,7 @@ class Loop {
     return stale;
   }
 
-  /// Whether another terrain took the place of the last one. A refused one is reported and changes nothing.
+  /// Reports whether another terrain replaced the last one. A refused one is reported and changes nothing.
   bool takes(const Result<std::shared_ptr<const terrain::Database>>& database) {
     report(database.findings());
     if (!database) {
@@ -109,7 +109,7 @@ class Loop {
     return true;
   }
 
-  /// Whether a changed preset took effect. A refused one is reported and changes nothing.
+  /// Reports whether a changed preset took effect. A refused one is reported and changes nothing.
   bool takes(const Result<ActivePreset>& preset) {
     report(preset.findings());
     if (!preset) {
@@ -127,7 +127,7 @@ class Loop {
     std::optional<FrameRequest> request =
         run_.session.request(start, run_.options.headless ? run_.options.width : run_.surface.width(),
                              run_.options.headless ? run_.options.height : run_.surface.height());
-    // With nobody to wait for a frame, its picture depends on the flight alone.
+    // With nobody to wait for a frame, its image depends on the flight alone.
     request->waitForPages = request->reproducible =
         run_.options.headless && !run_.options.realtime && !run_.options.listen;
     run_.surface.fit(request->view.widthPx, request->view.heightPx);

@@ -24,7 +24,7 @@ namespace trimtab::ig {
 
 using TerrainWatch = Watch<std::shared_ptr<const terrain::Database>>;
 
-/// Everything that a run needs, opened and checked.
+/// Holds everything that a run needs, opened and checked.
 struct Run {
   const Options& options;
   const Wake& wake;

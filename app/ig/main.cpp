@@ -20,12 +20,12 @@
 namespace trimtab::ig {
 namespace {
 
-/// Freed blocks of this size, in bytes, return to the system. By itself glibc keeps blocks up to the largest
-/// that was ever freed, and so what terrains leave behind: the mean of memory is 310 MB then instead of 252
-/// while six presets take turns every 2 s and two terrains every 14 s, and it grows for hours.
+/// Freed blocks of at least this size, in bytes, return to the system. By itself glibc keeps blocks up to the
+/// largest that was ever freed, and so what terrains leave behind: the mean of memory is 310 MB then instead
+/// of 252 while six presets take turns every 2 s and two terrains every 14 s, and it grows for hours.
 constexpr int kReturnedBlock = 512 << 10;
 
-/// Whether there is a value; findings are told either way.
+/// Reports the findings, and returns whether there is a value.
 template <class T>
 bool accepted(const Result<T>& result) {
   report(result.findings());
@@ -68,7 +68,7 @@ Result<scene::GlReport> initialized(scene::Renderer& renderer) {
 int runWith(const Options& options) {
   const SummaryOutput output;
   const Wake wake;
-  // All inputs are looked at before any refusal ends the program: one run tells everything that is wrong.
+  // All inputs are looked at before any refusal ends the program: one run reports everything that is wrong.
   std::optional<PresetWatch> watch;
   const auto news = [&wake] { wake.post(); };
   if (options.watch)
@@ -87,7 +87,7 @@ int runWith(const Options& options) {
   usable &= accepted(feed);
   usable &= accepted(head);
   usable &= accepted(checkWatch(options));
-  // Told before the first frame, not after the last one.
+  // A screenshot that cannot be made is reported before the first frame, not after the last one.
   if (!options.screenshot.empty()) usable &= accepted(canMake(options.screenshot));
   std::optional<TraceFile> trace;
   if (usable && !options.trace.empty()) {

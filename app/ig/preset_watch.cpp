@@ -11,7 +11,7 @@ Result<ActivePreset> loadActivePreset(const std::string& nameOrFile) {
   const Result<ValidatedParameters> valid = validate(preset->parameters);
   for (Finding finding : valid.findings()) {
     if (finding.where.empty()) finding.where = nameOrFile;
-    // A broken rule is told by the loader already.
+    // A broken rule is reported by the loader already.
     if (std::find(findings.begin(), findings.end(), finding) == findings.end())
       findings.push_back(std::move(finding));
   }

@@ -25,7 +25,8 @@ nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
-/// What was asked for and drawn of each lever, and in how many images each step was the last to change it.
+/// Returns what was asked for and drawn of each lever, and in how many images each step was the last to
+/// change it.
 nlohmann::ordered_json leversJson(const LeverTally& tally) {
   nlohmann::ordered_json levers;
   for (std::size_t i = 0; i < kFrameLeverRows.size(); ++i) {
@@ -38,7 +39,7 @@ nlohmann::ordered_json leversJson(const LeverTally& tally) {
   return levers;
 }
 
-/// Who changed levers, and in how many frames: "; levers: Allowed error by policy in 120 frames".
+/// Says who changed levers, and in how many frames: "; levers: Allowed error by policy in 120 frames".
 std::string leversText(const LeverTally& tally) {
   std::string text;
   for (const LeverStep step : {LeverStep::motion, LeverStep::weather, LeverStep::policy, LeverStep::budget})
@@ -53,7 +54,7 @@ std::uint64_t heldAs(const Summary& s, HoldReason reason) {
   return s.held[static_cast<std::size_t>(reason)];
 }
 
-/// What the arbiter could not do, and how often it acted; nothing if it was off.
+/// Says what the arbiter could not do, and how often it acted; empty if it was off.
 std::string heldText(const Summary& s) {
   if (heldAs(s, HoldReason::off) == s.frames) return {};
   std::string text = "; budget held: lowered in " + std::to_string(heldAs(s, HoldReason::lowered)) +
@@ -67,7 +68,7 @@ std::string heldText(const Summary& s) {
   return text;
 }
 
-/// What of a sender's datagrams could not be used, and why.
+/// Adds what of a sender's datagrams could not be used, and why.
 void addUnusable(nlohmann::ordered_json& json, const HostStatistics& sender) {
   json["bad"] = sender.bad;
   json["not_for_us"] = sender.notForUs;

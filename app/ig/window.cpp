@@ -33,7 +33,7 @@ class Window : public Surface {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  /// Empty when all is there; else what is not.
+  /// Returns an empty text if all is there; else what is not.
   std::string create(int width, int height, const char* title) {
     int attributes[] = {GLX_RGBA, GLX_DOUBLEBUFFER, GLX_RED_SIZE, 8, GLX_GREEN_SIZE, 8, GLX_BLUE_SIZE, 8,
                         None};
@@ -63,7 +63,7 @@ class Window : public Surface {
   int width() const override { return width_; }
   int height() const override { return height_; }
   void fit(int width, int height) override {
-    // Once for each size: a window manager that refuses must not be asked for ever.
+    // Each size is asked for once: a window manager that refuses must not be asked for ever.
     if ((width == width_ && height == height_) || (width == askedWidth_ && height == askedHeight_)) return;
     askedWidth_ = width;
     askedHeight_ = height;

@@ -28,7 +28,7 @@ Result<Endpoint> parseEndpoint(const std::string& text);
 /// Unless told otherwise, nobody on the network reaches a receiver.
 inline constexpr const char *kOwnMachine = "127.0.0.1", *kAnyone = "any", *kFirst = "first";
 
-/// Who may send to a receiver, who sends, and who tried without being allowed.
+/// Says who may send to a receiver, who sends, and who tried without being allowed.
 struct Senders {
   std::string allowed;         ///< an address, kAnyone, or kFirst before the first
   std::uint64_t refused = 0;   ///< datagrams
@@ -42,9 +42,9 @@ struct ReceiverOptions {
   std::uint16_t port = 0;                 ///< 0: any free port
   std::string bindAddress = kOwnMachine;  ///< the interface's address; 0.0.0.0: every interface
   std::string group{};                    ///< a multicast group to join there, or empty
-  /// Who may send: kAnyone, kFirst (the address of the first good datagram is held from then on), or the
-  /// address or name of a host. The datagrams of others are counted and thrown away. The port of the sender
-  /// does not matter.
+  /// Sender that is allowed: kAnyone, kFirst (the address of the first good datagram is held from then on),
+  /// or the address or name of a host. The datagrams of others are counted and thrown away. The port of the
+  /// sender does not matter.
   std::string sender = kAnyone;
   HostProtocol protocol = HostProtocol::automatic;
   std::optional<Endpoint> reply;  ///< where Start of Frame is sent, `replyRateHz` times per second

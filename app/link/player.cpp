@@ -138,7 +138,8 @@ void UdpPlayer::send(AircraftState state, double flightS, Clock::duration elapse
     return ::send(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   };
   if (attempt() < 0 && (errno == ECONNREFUSED || errno == EINTR)) static_cast<void>(attempt());
-  // What the system has no room for is lost, as on a full line; the receiver sees it by the frame numbers.
+  // A datagram that the system has no room for is lost, as on a full line; the receiver sees it by the frame
+  // numbers.
   ++sent_;
 }
 

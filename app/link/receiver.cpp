@@ -159,7 +159,7 @@ void UdpReceiver::run() {
       const auto elapsed = Clock::now() - begin;
       if (elapsed >= due) {
         sendStartOfFrame();
-        // Against absolute deadlines; those that were missed are not made up for.
+        // Replies are due at absolute times; those that were missed are not made up for.
         due = (elapsed / replyPeriod_ + 1) * replyPeriod_;
       }
       const auto left = std::chrono::nanoseconds(due - (Clock::now() - begin)).count();
@@ -313,7 +313,8 @@ Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options)
   sockaddr_in address = *own;
   std::optional<in_addr> group;
   if (options.group.empty()) {
-    // No SO_REUSEADDR: two receivers on one port would share its datagrams, and neither would know.
+    // The socket is opened without SO_REUSEADDR: two receivers on one port would share its datagrams, and
+    // neither would know.
   } else {
     // Each member of a group gets every datagram. They are addressed to the group, so a socket that is bound
     // to the interface's own address would get none.

@@ -65,7 +65,7 @@ void BoxArrays::set(std::size_t i, const Box& box) {
   for (std::size_t k = 0; k < values.size(); ++k) {
     side_[k][i] = values[k];
     const float away = std::abs(values[k]);
-    // What is not a number stays.
+    // Once NaN, the reach stays NaN.
     if (!std::isnan(reach_) && !(away <= reach_)) reach_ = away;
   }
 }

@@ -14,7 +14,8 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 constexpr double kRounding = 1.2e-5;
 /// Larger coordinates, metres, are no positions on earth.
 constexpr float kMostReach = 1e8f;
-/// Most bins of waiting lines per quarter. With 800 columns a dozen columns per bin were fastest.
+/// A quarter has at most so many bins of waiting lines. With 800 columns a dozen columns per bin were
+/// fastest.
 constexpr int kMostBins = 64;
 
 }  // namespace

@@ -15,7 +15,8 @@ struct Projection {
   float signF, signL, perT;
 };
 
-/// What the boxes of a part's blocks span at most, and how high their tops reach: a BoxImage each.
+/// Holds an upper bound of what the boxes of a part's blocks span, and how high their tops reach: a BoxImage
+/// each.
 struct BoxImages {
   alignas(64) std::array<float, TileRelief::Part::kMostBlocks> t0, t1, w;
 };
@@ -23,7 +24,8 @@ struct BoxImages {
 struct Kernels {
   /// Reads and writes up to the next multiple of 16.
   void (*project)(const Projection& p, int count, float* forward, float* u, float* w);
-  /// As a quarter sees them; all of them must be in front of the eye. `from`: their origin, from it.
+  /// Computes the boxes as a quarter sees them; all of them must be in front of the eye. `from` is their
+  /// origin, seen from it.
   void (*images)(int side, const TileRelief::Part& part, const std::array<float, 3>& from, BoxImages& images);
   /// 1 where each value is at least the one before, -1 where none is, else 0.
   int (*trend)(const float* values, int count);

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::uint8_t kThere = 1, kHidden = 2, kMaySplit = 4, kMayJoin = 8;
 
-/// How far the eye may be beside its predicted path: metres, and shares of the path's length and of its bend.
+/// The eye may be this far beside its predicted path: metres, and shares of the path's length and of its
+/// bend.
 constexpr double kBesideM = 0.5, kBesideShare = 0.006, kTurnShare = 0.25;
 /// The turn is a mean over kTurnFrames frames. A larger one than kMostTurn, metres per frame squared (11 g at
 /// 60 frames per second), counts as no turn.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kNone = PatchIndex::kNone;
 
-/// What is known of a diamond that should be split.
+/// Says what is known of a diamond that should be split.
 enum Lack : std::uint8_t {
   kOwn = 1,    ///< a page of its children is not resident
   kAny = 2,    ///< the same is true of it or of a diamond that it depends on
@@ -47,7 +47,7 @@ class Selection {
   void begin() {
     cut_.cut.tiles.clear();
     cut_.heldBack = 0;
-    // Another terrain, so the lists of the last call say nothing.
+    // The terrain is another one, so the lists of the last call say nothing.
     if (cut_.need.size() != index_.diamonds.size() || cut_.wantOf.size() != index_.pages.size()) {
       cut_.need.assign(index_.diamonds.size(), 0);
       cut_.lack.assign(index_.diamonds.size(), 0);

@@ -15,8 +15,8 @@
 namespace trimtab {
 namespace {
 
-/// The nearest double to the height in feet, except that a height which is a whole number of feet comes back
-/// as that number: breakpoints are whole feet, and the equation readings jump there.
+/// Returns the nearest double to the height in feet, except that a height which is a whole number of feet
+/// comes back as that number: breakpoints are whole feet, and the equation readings jump there.
 double toFeet(Metres height) {
   const double feet = height.value() / unit::Foot::size;
   const double whole = std::round(feet);
@@ -51,8 +51,8 @@ const char* combinationText(Combination combination) {
   return "";
 }
 
-/// What the policy sets: ", policy: LOD scale 2, far distance 0.8 x visible distance; height above ground
-/// unknown".
+/// Says what the policy sets: ", policy: LOD scale 2, far distance 0.8 x visible distance; height above
+/// ground unknown".
 std::string policyText(const PolicyOutcome& policy) {
   std::string text;
   for (const LeverRow& row : kLeverRows)
@@ -171,8 +171,8 @@ void setBand(FrameDecision& decision, const BandList& bands, int band) {
 }
 
 LeverChain leversOf(const FrameDecision& d, const TuningParameters& parameters) {
-  // What the memberships alone ask for, without the hysteresis, is looked up only where a rule took their
-  // place.
+  // The memberships alone, without the hysteresis, are looked up only where a rule replaced what they ask
+  // for.
   std::optional<OcclusionResolution> unruled = d.occlusionResolution;
   if (d.policy.moves(Lever::occlusion)) {
     const BandList& bands = parameters.scheme.bands;

@@ -19,8 +19,8 @@ double tangent(double degrees) {
   return std::tan(degrees * (std::numbers::pi / 180));
 }
 
-/// The host's half-angles where it names both, or one beside the preset's other; the preset's where they make
-/// no view.
+/// Returns the host's half-angles if it names both, or one beside the preset's other; the preset's if they
+/// make no view.
 Span halfAngles(Degrees field, const std::optional<Degrees>& low, const std::optional<Degrees>& high) {
   const Span preset{-field.value() / 2, field.value() / 2};
   const Span asked{low ? low->value() : preset.low, high ? high->value() : preset.high};

@@ -17,7 +17,7 @@ double fromSteps(std::uint32_t steps) {
   return (static_cast<double>(steps & 0xfffu) - 2048) / kSteps;
 }
 
-/// The lower half of the octahedron, turned out over the upper one; and back.
+/// Turns the lower half of the octahedron out over the upper one; and back.
 void turnOut(double& x, double& y) {
   const double was = x;
   x = std::copysign(1 - std::abs(y), x);
@@ -66,7 +66,7 @@ NormalCone NormalCone::of(std::span<const Vec3> normals) {
   double least = 1;
   for (const Vec3& n : normals) {
     const double cosine = dot(axis, n);
-    // Said so that what is not a number leaves nothing known.
+    // The test is written so that a cosine that is not a number leaves nothing known.
     if (!(cosine > 0)) return cone;
     least = std::min(least, cosine);
   }

@@ -16,7 +16,7 @@ constexpr std::size_t kMostScales = 17, kMostParticles = 9;
 constexpr double kReserve = 0.08;
 /// A setting with another allowed error exchanges levels, which is seen, so it loses so many times as much.
 constexpr double kExchange = 1.5;
-/// Where nothing fits, a setting that takes so many times as long as the quickest does as well.
+/// Where nothing fits, a setting whose time is at most so many times the quickest one's does as well.
 constexpr double kAlike = 1.02;
 /// Predictions are not trusted once the median of the last ones is off by this part of the budget, or of the
 /// quickest image if that is longer, until it is off by half as much.
@@ -27,7 +27,7 @@ constexpr double kMostBuildingMs = 2000;
 constexpr double kMostOfCalm = 1.0 / 3;
 constexpr std::size_t kNoPlace = kErrorPlaces + 1;
 
-/// The settings of one lever, from what is asked for downwards, with the loss of each.
+/// Holds the settings of one lever, from what is asked for downwards, with the loss of each.
 template <std::size_t Most>
 struct Settings {
   std::array<double, Most> value{}, loss{};
@@ -56,15 +56,16 @@ struct Choice {
   Settings<2> blur;
 };
 
-/// The part of the loss from 1 to 16 px that lies between two errors, of which the first may not be smaller.
-/// The power is that of FLIP over Kansai, which rises by 0.0025, 0.011 and 0.033 from 1 px to 2, 4 and 8 px.
+/// Returns the part of the loss from 1 to 16 px that lies between two errors, of which the first may not be
+/// smaller. The power is that of FLIP over Kansai, which rises by 0.0025, 0.011 and 0.033 from 1 px to 2, 4
+/// and 8 px.
 double errorLoss(double errorPx, double freePx) {
   const auto power = [](double px) { return px * std::sqrt(px); };
   return std::max(power(errorPx) - power(freePx), 0.0) / (power(16) - power(1));
 }
 
-/// The part of the loss from full scale to half. Any smaller scale blurs the finest detail at once: 0.7
-/// already loses two thirds of what 0.5 does.
+/// Returns the part of the loss from full scale to half. Any smaller scale blurs the finest detail at once:
+/// 0.7 already loses two thirds of what 0.5 does.
 double scaleLoss(double scale, double fullScale) {
   return std::sqrt(std::max(fullScale / scale - 1, 0.0));
 }
@@ -109,7 +110,7 @@ double lossAt(const Choice& c, const HoldSteps& s) {
          c.blur.loss[s.blur];
 }
 
-/// The steps of the image before, as far as the levers still have them.
+/// Returns the steps of the image before, as far as the levers still have them.
 HoldSteps within(const Choice& c, const HoldSteps& s) {
   const auto least = [](std::uint8_t step, std::size_t size) {
     return static_cast<std::uint8_t>(std::min<std::size_t>(step, size - 1));
@@ -141,7 +142,7 @@ class Search {
   }
   /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do and lose less
   /// than `lost`, the one that loses least, and of those that lose the same the quickest. A setting that
-  /// exchanges levels counts as losing more. Unset if there is none.
+  /// exchanges levels counts as losing more. It is unset if there is none.
   std::optional<HoldSteps> best(double limitMs, double lost) const {
     if (timeAt({}) <= limitMs) return HoldSteps{};
     std::optional<HoldSteps> best;
@@ -178,7 +179,7 @@ class Search {
   std::size_t kept_;
 };
 
-/// The time since the last image, milliseconds; 0 if the clock stands, goes back or is not a number.
+/// Returns the time since the last image, milliseconds; 0 if the clock stands, goes back or is not a number.
 double passed(const HoldGiven& given, HoldMemory& memory) {
   const double ms = memory.begun ? (given.timeS - memory.timeS) * 1e3 : 0;
   if (std::isfinite(given.timeS)) memory.timeS = given.timeS;
@@ -268,7 +269,7 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
   }
 
   const bool reaches = leastMs <= d.limitMs;
-  // Where nothing fits, lowering is for those images that it makes shorter by more than the reserve.
+  // Where nothing fits, lowering serves those images that it makes shorter by more than the reserve.
   const double nearlyMs = askedMs * (1 - kReserve) <= leastMs ? askedMs : kAlike * leastMs;
   const double limitMs = reaches ? d.limitMs : nearlyMs / (1 - kReserve);
   const double aimMs = std::max(limitMs * (1 - kReserve), std::min(nearlyMs, limitMs));

@@ -9,20 +9,20 @@
 namespace trimtab {
 namespace {
 
-/// What the first drops of a fade take is the pass, not the drops, and would give their cost a scale that is
-/// far too large.
+/// Below this amount the model learns nothing of particles: the first drops of a fade cost the pass, not the
+/// drops, and would give their cost a scale that is far too large.
 constexpr double kFewestParticles = 0.05;
-/// How many times of what belongs to no load, and how many errors of predictions, are remembered.
+/// The model remembers so many times of what belongs to no load, and so many errors of predictions.
 constexpr std::size_t kOthers = 9, kRecent = 50;
 /// After so many predictions in a row of which each is more than twice too long or too short, a clock has
 /// numbers that it can no longer correct, as from a damaged file. What is forgotten then is worth nothing.
 constexpr int kHopeless = 100;
-/// So many images late a time of the GPU may be, because its stamps go round a ring of four frames.
+/// A time of the GPU may be late by so many images, because its stamps go round a ring of four frames.
 constexpr std::size_t kMostLate = 3;
 /// Triangles count by ten thousands, so that all quantities are of one order.
 constexpr double kTriangleUnit = 1e-4;
 
-/// The side of a square with as many pixels as the scene, thousands of pixels.
+/// Returns the side of a square with as many pixels as the scene, thousands of pixels.
 double sideOf(const FrameLoad& load) {
   return std::sqrt(std::max(load.sceneMpx, 0.0));
 }
@@ -95,7 +95,7 @@ void ClockModel::observe(const FrameLoad& load, const ClockTimes& times) {
   const bool falls = load.particles > 0;
   if (times.apart && ((falls && !isTime(times.weather)) || (load.blurs && !isTime(times.blur)))) return;
   const StageTimes expected = predict(coefficients(), load);
-  // What was not measured apart learns from what the rest is not expected to take.
+  // If weather was not measured apart, it gets the time that nothing else is expected to use.
   const double weather =
       times.apart ? orZero(times.weather) : times.work - times.other - expected.ground - expected.blur;
   const double ground =
@@ -165,7 +165,7 @@ void CostModel::observe(const FrameLoad& load, const FrameCost& cost) {
   const double before = orZero(cost.decide) + orZero(cost.occlusion) + orZero(cost.page);
   if (!isTime(cost.gpu))
     return processor_.observe(load, {cost.total, before + orZero(cost.symbology), cost.weather, cost.blur});
-  // Beside a GPU the processor draws no pixel. What it does for particles nobody measures apart.
+  // Beside a GPU the processor draws no pixel. Its work for particles is not measured apart.
   processor_.observe({load.triangles, 0, 0, load.particles, false}, {cost.total, before, 0, 0, false});
   if (loads_.size() > kMostLate) {
     gpu_.observe(loads_.back(), {cost.gpu, orZero(cost.symbology), cost.weather, cost.blur});

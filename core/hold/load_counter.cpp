@@ -46,7 +46,7 @@ class Accepted {
   double toNext_, places_;
 };
 
-/// What a view leaves out.
+/// Reports whether a view leaves out a box.
 class Outside {
  public:
   explicit Outside(const LoadView& view)
@@ -61,7 +61,7 @@ class Outside {
   double far2_;
 };
 
-/// A node that waits, with the first step that draws its parent instead.
+/// Packs a node that waits with the first step that draws its parent instead.
 std::uint64_t packed(std::uint32_t node, std::size_t below) {
   static_assert(kErrorSteps <= 0xff);
   return std::uint64_t{node} << 8 | below;

@@ -121,8 +121,8 @@ void readViewDefinition(Packet& p, Session& session) {
   session.view = shape;
 }
 
-/// The wind at offsets 36 of Weather Control and 12 of Atmosphere Control: horizontal speed, vertical speed,
-/// direction. CIGI 3.3 does not say whether the direction is where the wind blows from or to; we take
+/// Reads the wind at offsets 36 of Weather Control and 12 of Atmosphere Control: horizontal speed, vertical
+/// speed, direction. CIGI 3.3 does not say whether the direction is where the wind blows from or to; we take
 /// aviation's *from*. It changes nothing but how drops drift, so a wind that is no wind is passed over
 /// instead of refusing its message.
 std::optional<Wind> windAt(const Packet& p, std::size_t offset) {
@@ -176,7 +176,7 @@ void readSymbols(std::span<const std::byte> bytes, std::size_t at, SymbolEdit& s
   if (fault && !message.symbolFault) message.symbolFault = std::move(fault);
 }
 
-/// The size a packet that we read must have; 0 for all others.
+/// Returns the size that a packet that we read must have; 0 for all others.
 std::size_t sizeOf(std::uint8_t id) {
   switch (id) {
     case kEntityControl:

@@ -42,7 +42,7 @@ struct Layer {
   std::optional<Wind> wind;  ///< unset if calm
 };
 
-/// What the packets of a session add up to: a packet that is not sent again keeps its effect.
+/// Holds what the packets of a session add up to: a packet that is not sent again keeps its effect.
 struct Session {
   std::optional<GeodeticPosition> position;  ///< of the ownship
   Attitude attitude;
@@ -58,7 +58,7 @@ struct Session {
   /// Returns what falls: the more severe of two enabled layers, or the snow if they are equal. It is unset
   /// until the host has sent either.
   std::optional<HostWeather> weather() const;
-  /// The wind in the layer that falls, unless it is calm there, else that of the atmosphere.
+  /// Returns the wind in the layer that falls, unless it is calm there, else that of the atmosphere.
   std::optional<Wind> wind() const;
 };
 
@@ -77,7 +77,7 @@ struct Message {
   std::optional<PacketFault> symbolFault;  ///< of the first of them
 };
 
-/// The byte order that the first packet's magic tells, when this looks like CIGI 3 at all.
+/// Returns the byte order that the first packet's magic shows, if this looks like CIGI 3 at all.
 std::optional<ByteOrder> byteOrder(std::span<const std::byte> bytes);
 /// Reads one message into `session`; with a fault, `session` is only meant to be thrown away.
 Message parse(std::span<const std::byte> bytes, Session& session);

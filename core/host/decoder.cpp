@@ -9,7 +9,7 @@
 namespace trimtab {
 namespace {
 
-/// More senders than that are no hosts, but a flood: whoever was not heard for longest is forgotten.
+/// More senders than that are no hosts, but a flood: the one that was silent for longest is forgotten.
 constexpr std::size_t kMostSenders = 8;
 
 }  // namespace

@@ -72,7 +72,7 @@ void putAtmosphereControl(PacketWriter& w, Metres visibility, const std::optiona
   w.putFloat(24, 1013.25);
 }
 
-/// One layer of global scope.
+/// Writes one layer of global scope.
 void putWeatherControl(PacketWriter& w, std::uint8_t layer, bool enabled, const HostWeather& weather,
                        const std::optional<Wind>& wind) {
   w.begin(cigi3::kWeatherControl, cigi3::kWeatherControlSize);

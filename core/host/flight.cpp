@@ -14,7 +14,8 @@
 namespace trimtab {
 namespace {
 
-/// Much longer than the steps around it: a recording in steps of ten seconds has no silences.
+/// Reports whether a step is much longer than the steps around it: a recording in steps of ten seconds has no
+/// silences.
 bool isSilent(const std::vector<AircraftState>& states, std::size_t i) {
   constexpr double kTimesLonger = 5;
   const double step = states[i + 1].time - states[i].time;
@@ -56,7 +57,7 @@ bool isStartOfFrame(const CapturedDatagram& d) {
   return d.bytes.size() >= cigi3::kStartOfFrameSize && d.bytes[0] == std::byte{cigi3::kStartOfFrame};
 }
 
-/// Why a sender's datagrams hold no state; empty if nobody knows.
+/// Says why a sender's datagrams hold no state; empty if that is unknown.
 std::string whyNone(const HostStatistics& s) {
   if (!s.firstBadReason.empty()) return "the first bad one: " + s.firstBadReason;
   const std::optional<Finding>& newest = s.newestNotForUs ? s.newestNotForUs : s.newestUnused;

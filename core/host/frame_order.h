@@ -28,8 +28,8 @@ class FrameOrder {
  private:
   Verdict restart(std::uint32_t frame);
   Verdict advance(std::uint32_t frame, std::int64_t ahead);
-  /// A number that is far from the last one. One damaged number must neither count as thousands of lost
-  /// frames nor as a new count, so it needs a second one that follows it.
+  /// Judges a number that is far from the last one. One damaged number must neither count as thousands of
+  /// lost frames nor as a new count, so it needs a second one that follows it.
   Verdict judgeFar(std::uint32_t frame, std::int64_t ahead, bool mayRestart);
 
   std::optional<std::uint32_t> last_;

@@ -18,7 +18,7 @@ Finding sweepFinding(std::string_view text) {
           '"' + std::string(text) + '"'};
 }
 
-/// A number off the front of `text`, with or without its unit.
+/// Reads a number off the front of `text`, with or without its unit.
 bool takeNumber(std::string_view& text, std::string_view unit, double& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || !std::isfinite(number)) return false;
@@ -59,7 +59,7 @@ Result<HeadLog> parseSweep(std::string_view text) {
     HeadSample sample;
     sample.timeS = times[i];
     (nod ? sample.pitchDeg : sample.headingDeg) = sides[i] * angle;
-    // Without a wait, the corners before and after it are one.
+    // If there is no wait between them, the corners before and after it are one.
     if (!log.samples.empty() && log.samples.back().timeS == sample.timeS) continue;
     log.samples.push_back(sample);
   }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-/// What a packet or a row may say of an aircraft before it is refused.
+/// Bounds what a packet or a row may say of an aircraft before it is refused.
 namespace trimtab::limits {
 
 /// A float's rounding of 90 or 180 degrees from radians lies just outside; it is meant as the limit itself.
@@ -13,7 +13,8 @@ inline constexpr double kPitch = 90 + kSlack;
 inline constexpr double kTurn = 360 + kSlack;  ///< headings and rolls: hosts write -180..180 and 0..360
 inline constexpr double kLowest = -20000, kHighest = 1e6;  ///< metres
 inline constexpr double kVisibility = 1e7;                 ///< metres
-/// Below this height (-1,000 ft) a simulator is not ready yet: FlightGear starts at -9,999 ft.
+/// An aircraft below this height (-1,000 ft) means that the simulator is not ready yet: FlightGear starts at
+/// -9,999 ft.
 inline constexpr double kReady = -304.8;
 
 inline double clampedLatitude(double degrees) {

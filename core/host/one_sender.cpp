@@ -30,7 +30,7 @@ bool isIgControl(std::span<const std::byte> bytes) {
          std::to_integer<int>(bytes[2]) == 3;
 }
 
-/// What neither protocol claims: why not.
+/// Says why neither protocol claims a datagram.
 PacketFault neither(std::span<const std::byte> bytes, WireProtocol last) {
   const bool version =
       bytes.size() >= 4 && wire::get<std::uint32_t>(bytes, 0, ByteOrder::big) == native_fdm::kVersion;

@@ -30,7 +30,7 @@ class OneSender {
  public:
   OneSender(std::string from, HostProtocol wanted) : wanted_(wanted) { statistics_.from = std::move(from); }
 
-  /// As HostDecoder::accept, but for `packet` of a protocol that carries no number.
+  /// Does what HostDecoder::accept does, for the datagrams of this sender.
   std::optional<AircraftState> accept(const Datagram& datagram);
   const HostStatistics& statistics() const { return statistics_; }
   const RateMeter& meter() const { return meter_; }
@@ -61,7 +61,7 @@ class OneSender {
   /// Says that a datagram is the other protocol's, where one was asked for.
   std::optional<PacketFault> otherThanWanted(std::span<const std::byte> bytes) const;
   void keepFirstBad(std::span<const std::byte> bytes, const PacketFault& fault);
-  /// A host's datagram: link health that does not depend on what it says.
+  /// Counts a host's datagram: link health that does not depend on what it says.
   void heard(const Datagram& datagram, WireProtocol protocol, bool silence);
   std::optional<AircraftState> acceptNativeFdm(const Datagram& datagram);
   std::optional<AircraftState> acceptCigi(const Datagram& datagram);

@@ -19,7 +19,7 @@ struct PacketFault {
 
 /// "byte 16: latitude: expected -90..90 deg, found 123.4 deg"
 std::string toString(const PacketFault& fault);
-/// The same as a warning about a sender, with the remedy after what was found.
+/// Returns the same as a warning about a sender, with the remedy after what was found.
 Finding toFinding(const PacketFault& fault, const std::string& from);
 
 /// Reads fields and keeps the first one that is not a number or out of range; reading goes on, with 0 in its

@@ -36,7 +36,7 @@ std::uint16_t u16(Bytes b, std::size_t at) {
   return wire::get<std::uint16_t>(b, at, ByteOrder::big);
 }
 
-/// The IP packet in a frame; empty when it holds none.
+/// Returns the IP packet in a frame; empty if it holds none.
 Bytes ipPacket(Bytes frame, std::uint32_t linkType) {
   const auto after = [frame](std::size_t n) { return frame.size() > n ? frame.subspan(n) : Bytes{}; };
   constexpr std::size_t kEthernetHeader = 14, kVlanTag = 4;

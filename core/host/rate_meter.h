@@ -11,13 +11,13 @@ class RateMeter {
   void arrived(double time);
   /// Datagrams a second among those of the second before `now`.
   double rateAt(double now) const;
-  /// The mean gap behind rateAt(), 0 while fewer than eight have come.
+  /// Returns the mean gap behind rateAt(), 0 while fewer than eight have come.
   double meanGapS() const;
   /// D(i-1, i) of RFC 3550, 6.4.1: how much the gap between two arrivals differs from that between their
   /// sendings.
   void deviated(double seconds);
   double jitterS() const { return jitter_; }
-  /// After a silence: rates start over, jitter stays.
+  /// Begins again after a silence: rates start over, jitter stays.
   void restart() { count_ = 0; }
 
  private:

@@ -33,7 +33,7 @@ void putText(PacketWriter& w, std::uint16_t id, const HostShape& shape) {
     w.put(cigi3::kTextHeaderSize + i, static_cast<std::uint8_t>(shape.text[i]));
 }
 
-/// What circles and lines have in common.
+/// Writes what circles and lines have in common.
 void beginShape(PacketWriter& w, std::uint8_t packet, std::size_t size, std::uint16_t id, float lineWidth) {
   constexpr std::uint16_t kSolid = 0xffff;
   w.begin(packet, size);

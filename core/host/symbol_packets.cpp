@@ -15,7 +15,7 @@ auto placeOf(std::vector<T>& sorted, std::uint16_t id) {
                           [](const T& t, std::uint16_t i) { return t.id < i; });
 }
 
-/// What Short Symbol Control may set, by its CIGI numbers.
+/// Names what Short Symbol Control may set, by its CIGI numbers.
 enum Attribute : std::uint8_t {
   kNone,
   kSurface,
@@ -294,7 +294,7 @@ void SymbolEdit::readShortControl(Packet& p) {
   control(p, std::move(s));
 }
 
-/// The part that Symbol Control and Short Symbol Control have in common; `s` has the new attributes.
+/// Applies what Symbol Control and Short Symbol Control have in common; `s` has the new attributes.
 void SymbolEdit::control(Packet& p, HostSymbol s) {
   if (!p.good()) return;
   const unsigned state = p.u8(4) & 3U;

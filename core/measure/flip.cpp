@@ -28,7 +28,7 @@ struct Pictures {
   int width, height;
 };
 
-/// Where two runs of pixels differ.
+/// Returns where two runs of pixels differ.
 Columns difference(const std::uint8_t* a, const std::uint8_t* b, int pixels) {
   const auto equalAt = [&](int x) { return std::memcmp(a + 4 * x, b + 4 * x, 4) == 0; };
   if (std::memcmp(a, b, 4 * static_cast<std::size_t>(pixels)) == 0) return {};

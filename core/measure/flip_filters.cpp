@@ -26,8 +26,8 @@ double sumOfBothSides(const std::vector<double>& half) {
   return sum;
 }
 
-/// The half filter that sums up to 1, without the outer weights that together are below 1e-10: where an error
-/// comes from them alone it is below 3e-6.
+/// Returns the half filter that sums up to 1, without the outer weights that together are below 1e-10: where
+/// an error comes from them alone it is below 3e-6.
 std::vector<double> normalised(std::vector<double> half) {
   const double sum = sumOfBothSides(half);
   for (double& weight : half) weight /= sum;

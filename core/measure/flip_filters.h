@@ -14,7 +14,7 @@ class FlipFilterBank {
 
   explicit FlipFilterBank(double pixelsPerDegree);
   const FlipFilters& filters() const { return filters_; }
-  /// How far, in pixels, an error looks.
+  /// Returns how far, in pixels, the filters of an error reach.
   int radius() const { return radius_; }
 
  private:
@@ -25,7 +25,8 @@ class FlipFilterBank {
   std::vector<std::vector<float>> weights_;
 };
 
-/// What each byte of each channel adds to luminance, X - Y and Y - Z, each a share of the white point's.
+/// Returns what each byte of each channel adds to luminance, X - Y and Y - Z, each a share of the white
+/// point's.
 const FlipTable& flipTable();
 
 }  // namespace trimtab

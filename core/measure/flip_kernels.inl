@@ -49,12 +49,13 @@ void flipConvert(const std::uint8_t* reference, const std::uint8_t* test, int pi
   }
 }
 
-/// A number that the compiler knows.
+/// Holds a number that the compiler knows.
 template <int N>
 struct Known {
   constexpr operator int() const { return N; }
 };
-/// How far the filters reach: known for the default number of pixels a degree, so that loops are unrolled.
+/// Says how far the filters reach: known for the default number of pixels per degree, so that loops are
+/// unrolled.
 struct AnyReach {
   explicit AnyReach(const FlipFilters& f)
       : luminance(f.luminance.radius),
@@ -164,14 +165,14 @@ void flipHorizontal(const float* planes, std::size_t pitch, int blocks, const Fl
 struct BothRows {
   Twin r, d;
 };
-/// What the filters leave of the two images at the pixels of two rows.
+/// Holds what the filters leave of the two images at the pixels of two rows.
 struct Seen {
   BothRows luminance, redGreen, blueYellow;
   BothRows edgeX, edgeY, pointX, pointY;
 };
 
-/// The vertical pass at two rows, one below the other: what one reads above or below it, the other has just
-/// read.
+/// Runs the vertical pass at two rows, one below the other: what one reads above or below it, the other has
+/// just read.
 template <class Reach>
 class TwoRows {
  public:
@@ -275,7 +276,7 @@ TRIMTAB_INLINE Twin lengthChange(BothRows x, BothRows y) {
 
 /// HyAB of the two colours, Hunt-adjusted, from opponent luminance, X - Y and Y - Z.
 TRIMTAB_INLINE Twin colourDifference(const Seen& s) {
-  // To linear RGB: the columns of the matrix for the white point's shares of Y, X - Y and Y - Z.
+  // The columns of the matrix to linear RGB, for the white point's shares of Y, X - Y and Y - Z.
   constexpr float kX = 0.950428545f, kZ = 1.088900371f;
   constexpr float kToRgb[3][3] = {{3.241003275f * kX, -1.537398934f, -0.498615861f * kZ},
                                   {-0.969224334f * kX, 1.875930071f, 0.041554224f * kZ},

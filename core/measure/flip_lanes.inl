@@ -1,13 +1,14 @@
-// What the kernels of image errors add to simd_lanes.inl: partial vectors, pairs of vectors, and roots, logarithms and powers.
+// Adds to simd_lanes.inl what the kernels of image errors need: partial vectors, pairs of vectors, and roots,
+// logarithms and powers.
 
-/// The first `count` lanes, and 0.
+/// Returns the first `count` lanes, and 0 in the others.
 TRIMTAB_INLINE Floats firstLanes(Floats v, int count) {
   if (count == kWide) return v;
   for (int i = count; i < kWide; ++i) v[i] = 0;
   return v;
 }
 
-/// The sum of the first `count` lanes.
+/// Returns the sum of the first `count` lanes.
 TRIMTAB_INLINE double sumOf(Floats v, int count = kWide) {
   const Doubles wide = __builtin_convertvector(firstLanes(v, count), Doubles);
   double sum = 0;

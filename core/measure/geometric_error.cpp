@@ -13,11 +13,11 @@ namespace {
 /// Stands for infinitely far: a line to it is the line that never ends to the seventh digit, and its square
 /// is still a float.
 constexpr float kFar = 1e12f;
-/// Beyond this ratio of depths floats lose the place on a line that is told from its far end.
+/// Beyond this ratio of depths, floats cannot hold a place on a line that is measured from its far end.
 constexpr float kSteep = 16;
 constexpr float kMuch = 1e30f;
 
-/// What both directions share: directions of pixels (tangents), and what a pixel spans at depth 1.
+/// Holds what both directions share: directions of pixels (tangents), and what a pixel spans at depth 1.
 struct Lattice {
   int width, height, window;
   float pixel;  ///< tangent of the finer axis' pixel: the unit of the result
@@ -47,7 +47,7 @@ struct Lattice {
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
-  /// To the image's edge, in pixels of the result.
+  /// Returns the distance to the image's edge, in pixels of the result.
   float toEdge(int x, int y) const {
     const auto least = [](int i, int count) { return static_cast<float>(std::min(i, count - 1 - i)) + 0.5f; };
     return std::min(least(x, width) * stepX, least(y, height) * stepY) / pixel;
@@ -63,7 +63,7 @@ std::vector<float> depthsOf(std::span<const float> distances, const Lattice& lat
     float* out = depths.data() + lattice.at(0, y);
     const float* a = lattice.across.data();
     for (int x = 0; x < lattice.width; ++x) {
-      // Said so that what is no number is far.
+      // The test is written so that a depth that is not a number counts as far.
       const bool drawn = in[x] > 0 && in[x] < kFar;
       const float depth = in[x] / std::sqrt(1 + a[x] * a[x] + b * b);
       out[x] = drawn ? depth : kFar;
@@ -72,8 +72,8 @@ std::vector<float> depthsOf(std::span<const float> distances, const Lattice& lat
   return depths;
 }
 
-/// Square of the distance from (a, b, 1) to the line from (a, b, 1) r0 to (a + step, b, 1) r1, by `along` =
-/// a; of a line in the column likewise with b. g is r0 - 1, length2 is 1 + a^2 + b^2.
+/// Returns the square of the distance from (a, b, 1) to the line from (a, b, 1) r0 to (a + step, b, 1) r1, by
+/// `along` = a; of a line in the column likewise with b.
 inline float toOwnLine(float g, float r0, float r1, float along, float step, float length2) {
   const float k = r1 - r0, side = step * r1;
   const float dd = k * k * length2 + 2 * along * side * k + side * side;
@@ -84,8 +84,9 @@ inline float toOwnLine(float g, float r0, float r1, float along, float step, flo
   return h * h * length2 + 2 * along * h * m + m * m;
 }
 
-/// For pixels 1 to width - 2 of a row that is not the first or last: square of the distance to the four lines
-/// that end in the same pixel of the other image. Nothing branches, so that it is vector instructions.
+/// Computes, for pixels 1 to width - 2 of a row that is not the first or last, the square of the distance to
+/// the four lines that end in the same pixel of the other image. Nothing branches, so that it is vector
+/// instructions.
 void toOwnLines(const float* own, const float* other, int width, const float* across, float up, float stepX,
                 float stepY, float* square) {
   for (int x = 1; x + 1 < width; ++x) {
@@ -162,7 +163,7 @@ class Search {
     if (!inside(x0, y0) || !inside(x1, y1)) return;
     float r0 = other_[lattice_.at(x_ + x0, y_ + y0)] * inverse_,
           r1 = other_[lattice_.at(x_ + x1, y_ + y1)] * inverse_;
-    // From its nearer end, which floats can tell from the pixel's point.
+    // The line begins at its nearer end, which floats can distinguish from the pixel's point.
     if (r1 < r0) {
       std::swap(r0, r1);
       std::swap(x0, x1);
@@ -189,12 +190,12 @@ class Search {
   float inverse_ = 1, a_ = 0, b_ = 0, best_ = 0, best2_ = 0;
 };
 
-/// One direction: how far what `own` shows lies from what `other` shows.
+/// Measures one direction: how far what `own` shows lies from what `other` shows.
 GeometricError oneWay(const std::vector<float>& own, const std::vector<float>& other,
                       const Lattice& lattice) {
   const int w = lattice.width, h = lattice.height;
   std::vector<float> square(static_cast<std::size_t>(w));
-  // What the own lines leave at less than this, no other line betters.
+  // No other line improves on a distance to the own lines below this.
   const float near2 = lattice.slant * lattice.pixel * lattice.slant * lattice.pixel;
   const float mostPx = static_cast<float>(lattice.window);
   double sum = 0;

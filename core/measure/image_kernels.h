@@ -65,14 +65,14 @@ struct ImageKernels {
   double (*flipError)(const float* filtered, std::size_t blockPitch, const std::size_t* rowOffset, int rows,
                       int columns, const FlipFilters& filters, float* error, std::size_t errorPitch);
 };
-/// What the kernels may read and write beyond the last column, floats.
+/// The kernels may read and write so many floats beyond the last column.
 inline constexpr int kSimdSlack = 32;
 
 /// Returns the kernels of a level; the level must not be above simdLevel().
 const ImageKernels& imageKernels(SimdLevel level);
 /// Returns the kernels in use: the widest, or those of the level that `useSimdLevel` named.
 const ImageKernels& imageKernels();
-/// For tests: all calls from now on use this level. Returns false, and changes nothing, if it is above
+/// Makes all calls from now on use this level, for tests. Returns false, and changes nothing, if it is above
 /// simdLevel().
 bool useSimdLevel(SimdLevel level);
 

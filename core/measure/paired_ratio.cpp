@@ -12,7 +12,7 @@
 namespace trimtab {
 namespace {
 
-/// From this on a ratio is read as a multiple, and below as a percentage.
+/// A ratio from this on is written as a multiple, and a smaller one as a percentage.
 constexpr double kTwice = 1.995;
 
 template <class Interval>

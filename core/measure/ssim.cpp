@@ -44,7 +44,7 @@ class Rows {
     filtered_[slot(row)] = false;
     if (std::memcmp(a_ + from, b_ + from, bytes) != 0) lastDifferent_ = row;
   }
-  /// Whether the rows from this one on are equal in both images.
+  /// Reports whether the rows from this one on are equal in both images.
   bool equalFrom(int row) const { return lastDifferent_ < row; }
 
   const float* planes(int row, const SsimFilter& filter) {

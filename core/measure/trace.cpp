@@ -34,7 +34,8 @@ std::vector<std::string_view> cellsOf(std::string_view line) {
 
 constexpr std::size_t kAbsent = std::numeric_limits<std::size_t>::max();
 
-/// Where in a line each known column stands, in the order of forEachColumn; kAbsent where the file lacks it.
+/// Returns where in a line each known column is, in the order of forEachColumn; kAbsent if the file misses
+/// it.
 std::vector<std::size_t> placesOf(std::string_view header, const std::string& where, Findings& findings) {
   const std::vector<std::string_view> names = cellsOf(header);
   std::vector<std::size_t> places;
@@ -141,7 +142,7 @@ bool isTrace(std::string_view text) {
 
 bool isTraceFile(const std::filesystem::path& file) {
   std::error_code error;
-  // What a pipe holds could not be read again, and a device may have no line end.
+  // The content of a pipe could not be read again, and a device may have no line end.
   if (!std::filesystem::is_regular_file(file, error) || !checkIsData(file)) return false;
   constexpr std::size_t kLongestHeader = std::size_t{1} << 16;
   std::string header(kLongestHeader, '\0');

@@ -43,7 +43,7 @@ void print(std::string& text, const std::array<double, N>& numbers) {
   }
 }
 
-/// What a cell may hold, for findings.
+/// Says what a cell may hold, for findings.
 struct Expected {
   std::string what;
 };

@@ -9,7 +9,7 @@
 /// The columns of a trace that hold the chain of the levers.
 namespace trimtab::trace {
 
-/// Whether a cell may be empty; cells of the frame are all empty where no frame showed the decision, and
+/// Says whether a cell may be empty; cells of the frame are all empty where no frame showed the decision, and
 /// those of `hold` where no budget was held. Columns that are `former` are read, but not written.
 enum class Cell { required, optional, frame, hold, former };
 

@@ -15,8 +15,8 @@
 /// is `Cell::optional`, so that traces without it stay readable: its field keeps its default.
 namespace trimtab::trace {
 
-/// What a policy was given, what its levers were before, and what it set. The cells of a preset without a
-/// policy are empty, and so is the cell of a signal that nobody knows.
+/// Holds what a policy was given, what its levers were before, and what it set. The cells of a preset without
+/// a policy are empty, and so is the cell of a signal that nobody knows.
 struct FlatPolicy {
   std::array<std::optional<double>, kSignals> signals;
   std::array<std::optional<double>, kLevers> before, levers;
@@ -149,9 +149,9 @@ void forEachPolicyColumn(Policy& p, const Visit& visit) {
   visit("signals_unknown", Cell::optional, p.unknownAsked);
 }
 
-/// What the arbiter of the budget decided for the image that showed the decision. Former traces also have
-/// hold_given and hold_before, what it decided from and its memory: no column of that name is known any more,
-/// so they are ignored whatever is in them.
+/// Visits what the arbiter of the budget decided for the image that showed the decision. Former traces also
+/// have hold_given and hold_before, what it decided from and its memory: no column of that name is known any
+/// more, so they are ignored whatever is in them.
 template <class Decision, class Visit>
 void forEachHoldColumn(Decision& d, const Visit& visit) {
   visit("hold_reason", Cell::hold, d.reason);
@@ -175,7 +175,7 @@ void forEachHoldColumn(Decision& d, const Visit& visit) {
   visit("hold_band_ms", Cell::hold, d.bandMs);
 }
 
-/// The eye of an image that is decided between two states.
+/// Visits the eye of an image that is decided between two states.
 template <class Eye, class Visit>
 void forEachDrawnEye(Eye& eye, const Visit& visit) {
   visit("drawn_time_s", Cell::optional, eye.timeS);

@@ -24,7 +24,7 @@ Direction directionOf(const Attitude& aircraft, const std::optional<Attitude>& h
   return {a.heading.value(), a.pitch.value()};
 }
 
-/// The larger of heading and pitch change, degrees; heading the short way round.
+/// Returns the larger of heading and pitch change, degrees; heading the short way round.
 double changeBetween(const MotionMemory& before, const Direction& now) {
   double heading = now.headingDeg - before.headingDeg;
   // Nearly always it does not wrap, and the remainder takes longer than all else here.
@@ -55,13 +55,14 @@ bool restoreStackIsFull(const MotionStack& stack, const MotionParameters& p) {
                                         : stack.ms > p.restoreDwell.value() + kTimeSlackMs;
 }
 
-/// The average rate of images that Eq. (1) divides by; unset if frames are states or the rate is not known.
+/// Returns the average rate of images that Eq. (1) divides by; unset if frames are states or the rate is not
+/// known.
 std::optional<double> drawnPerS(const MotionParameters& p, const DrawnLoad& drawn) {
   if (p.frames != MotionFrames::drawn || !drawn.framesPerS) return std::nullopt;
   return std::isfinite(*drawn.framesPerS) && *drawn.framesPerS > 0 ? drawn.framesPerS : std::nullopt;
 }
 
-/// Whether time and vertices ask for a coarser level. What is unknown asks for it.
+/// Reports whether time and vertices ask for a coarser level. An unknown one does.
 bool asksForCoarser(const MotionParameters& p, const DrawnLoad& drawn) {
   if (p.frames != MotionFrames::drawn) return true;
   const double ms = p.lodOverTime.value(), vertices = p.lodOverVertices.value();
@@ -80,7 +81,7 @@ double blurShareOf(const MotionStack& run, const MotionParameters& p) {
   return std::min(1.0, run.variationDeg / (run.ms * 1e-3) / fullAtDegPerS);
 }
 
-/// A fast frame: on BlurStack; full, it lowers the level and starts the blur.
+/// Counts a fast frame on BlurStack; a full one lowers the level and starts the blur.
 MotionReason fastFrame(const MotionParameters& p, double ms, double changeDeg, const DrawnLoad& drawn,
                        MotionMemory& memory) {
   memory.restoreStack = {};
@@ -97,7 +98,7 @@ MotionReason fastFrame(const MotionParameters& p, double ms, double changeDeg, c
   return MotionReason::lowered;
 }
 
-/// A slow frame: on LODRestoreStack; full, it raises the level and stops the blur.
+/// Counts a slow frame on LODRestoreStack; a full one raises the level and stops the blur.
 MotionReason slowFrame(const MotionParameters& p, double ms, double changeDeg, MotionMemory& memory) {
   memory.blurStack = {};
   if (p.control != MotionControl::with_restoration) {

@@ -123,7 +123,7 @@ struct Part {
     if (term.empty()) return invert ? negated : text;
     return subject + (invert ? " is not " : " is ") + hedges + term;
   }
-  /// In parentheses if it stands in a group that is joined the other way.
+  /// Puts the text in parentheses if it is in a group that is joined the other way.
   std::string inGroup(bool invert, bool groupByAnd) const {
     const bool apart = term.empty() && (byAnd != invert) != groupByAnd;
     return apart ? "( " + inWords(invert) + " )" : inWords(invert);

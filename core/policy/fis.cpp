@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kReason = "% reason:", kOff = "% rule:";
 
-/// How a shape's numbers stand in MATLAB's language, seen from fuzzylite's.
+/// Says how the order of a shape's numbers in MATLAB's language differs from fuzzylite's.
 enum class Order { same, reversed, first_is_last };
 struct Shape {
   std::string_view matlab, fuzzylite;
@@ -33,7 +33,7 @@ struct Norm {
 constexpr Norm kConjunctions[] = {{"min", "Minimum"}, {"prod", "AlgebraicProduct"}};
 constexpr Norm kDisjunctions[] = {{"max", "Maximum"}, {"probor", "AlgebraicSum"}};
 
-/// What fuzzylite adds to the number of a term for the hedges before it; a minus sign says not.
+/// Holds what fuzzylite adds to the number of a term for the hedges before it; a minus sign says not.
 struct HedgeCode {
   std::string_view hedges;
   const char* code;
@@ -53,7 +53,7 @@ std::string_view unquoted(std::string_view text) {
   return text;
 }
 
-/// A name as one word; MATLAB's may have blanks.
+/// Returns a name as one word; MATLAB's may have blanks.
 std::string asWord(std::string_view text) {
   std::string word(unquoted(text));
   std::replace_if(
@@ -284,7 +284,7 @@ std::string variableText(const Variable& variable) {
   return text;
 }
 
-/// A rule in numbers, or why it cannot be one.
+/// Returns a rule in numbers, or why it cannot be one.
 Result<std::string> ruleText(const Rule& rule, const System& system) {
   const auto refused = [](std::string expected, std::string found) {
     return Finding{Severity::error, "", "", std::move(expected), std::move(found)};

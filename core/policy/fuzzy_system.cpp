@@ -23,7 +23,8 @@ namespace {
 
 constexpr std::size_t kLongestExpected = 400, kLongestLine = 32768;
 
-/// So near that a step between two points is meant; no number so small that other programs refuse it.
+/// Returns a number so near that a step between two points is meant, but no number so small that other
+/// programs refuse it.
 double justBelow(double x) {
   return x - std::max(1.0, std::abs(x)) * 4 * std::numeric_limits<double>::epsilon();
 }

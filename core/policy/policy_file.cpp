@@ -15,7 +15,7 @@ namespace {
 
 using fuzzy_system::System;
 
-/// As fuzzylite spells the shapes, in the enumeration's order.
+/// The shapes as fuzzylite spells them, in the enumeration's order.
 constexpr std::array<std::string_view, kTermShapes.size()> kShapes{
     "Discrete", "Triangle", "Trapezoid", "Ramp", "Gaussian", "Bell", "Sigmoid"};
 
@@ -178,7 +178,7 @@ class Translation {
     policy_.rules.push_back(std::move(made));
   }
 
-  /// The line of what compile() names "terms.SIGNAL.NAME" or "rules.N".
+  /// Returns the line of what compile() names "terms.SIGNAL.NAME" or "rules.N".
   std::string placeOf(const std::string& key) const {
     constexpr std::string_view kRules = "rules.";
     if (key.starts_with(kRules))
@@ -211,7 +211,7 @@ Result<std::string> policyFileText(const Policy& policy, const std::string& name
   addOutputs(policy, system);
   for (const PolicyRule& rule : policy.rules) system.rules.push_back(ruleOf(rule, system));
   auto text = fuzzy_system::systemText(system, format);
-  // By De Morgan's laws a condition grows, so it may be longer than what can be read.
+  // De Morgan's laws lengthen a condition, so it may be longer than what can be read.
   Findings findings = text ? readPolicyFile(*text, name, format).findings() : text.findings();
   if (!hasError(findings)) return text;
   for (Finding& f : findings) f.where = name;

@@ -39,7 +39,7 @@ std::string ruleKey(std::size_t rule) {
   return "rules." + std::to_string(rule + 1);
 }
 
-/// The largest difference of two values of a lever, in parts of its usual range.
+/// Returns the largest difference of two values of a lever, in parts of its usual range.
 double apart(const LeverRow& row, double a, double b) {
   if (row.logarithmic) return std::abs(std::log(a / b)) / std::log(row.usual.high / row.usual.low);
   return std::abs(a - b) / (row.usual.high - row.usual.low);
@@ -137,7 +137,7 @@ class Review {
       best = place;
     };
     for (std::uint64_t i = 0; i < places && most < kFires; ++i) take(samples.at(i));
-    // From the best place along each signal, for conditions that only a narrow region meets.
+    // The search begins at the best place along each signal, for conditions that only a narrow region meets.
     for (std::size_t d = 0; d < samples.signals().size() && most < kFires; ++d)
       for (std::size_t cell = 0; cell < samples.cells(d) && most < kFires; ++cell)
         for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0}) {
@@ -158,7 +158,7 @@ class Review {
               pairs_.push_back({active_[i], active_[j], a.lever, a.value, b.value});
   }
 
-  /// One pass over all signals: who fires together, and where nobody fires.
+  /// Goes once over all signals and sees which rules fire together, and where none fires.
   void lookAround(const PolicySamples& samples) {
     if (active_.empty()) return;
     PolicyDecision decision;

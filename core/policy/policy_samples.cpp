@@ -6,7 +6,7 @@
 namespace trimtab {
 namespace {
 
-/// Where the membership of a term begins or ends to change, or is half.
+/// Adds where the membership of a term begins or ends to change, or is half.
 void addNumbers(const PolicyTerm& term, std::vector<double>& edges) {
   const std::vector<double>& n = term.numbers;
   switch (term.shape) {
@@ -30,7 +30,7 @@ void addNumbers(const PolicyTerm& term, std::vector<double>& edges) {
   }
 }
 
-/// A well spread number in 0..1 (a bit mixer, the same on every machine).
+/// Returns a well spread number in 0..1 (a bit mixer, the same on every machine).
 double mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ull;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;

@@ -4,7 +4,7 @@
 #include "trimtab/units/finding_list.h"
 #include "trimtab/units/text.h"
 
-/// For the two languages of fuzzy_system.h.
+/// Declares what the two languages of fuzzy_system.h share.
 namespace trimtab::fuzzy_system {
 
 std::string toFuzzyLite(const System& system);

@@ -27,7 +27,7 @@ inline std::vector<std::string_view> policyWords(std::string_view text) {
   return words;
 }
 
-/// Is the inverse: words with a blank between, but none inside of parentheses.
+/// Joins words with a blank between, but none inside of parentheses.
 template <class Iterator>
 std::string joinedWords(Iterator begin, Iterator end) {
   std::string text;

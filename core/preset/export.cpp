@@ -88,7 +88,7 @@ class PropertyList {
   void leaf(const std::string& name, std::string_view type, std::string_view value) {
     line("<" + name + " type=\"" + std::string(type) + "\">" + escaped(value) + "</" + name + ">");
   }
-  /// The n-th of several elements of one name, with leaves inside.
+  /// Writes the n-th of several elements of one name, with leaves inside.
   void indexed(const std::string& name, std::size_t n,
                const std::vector<std::array<std::string, 3>>& leaves) {
     line("<" + name + " n=\"" + std::to_string(n) + "\">");
@@ -151,7 +151,8 @@ std::string asXml(const TuningParameters& parameters, const std::string& name, c
   return list.text + "</PropertyList>\n";
 }
 
-/// One line: backslash, line ends and tabs by a backslash, other control characters as blanks.
+/// Returns the text on one line: backslash, line ends and tabs by a backslash, other control characters as
+/// blanks.
 std::string oneLine(std::string_view text) {
   std::string result;
   for (const char c : text) {

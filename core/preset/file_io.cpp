@@ -22,8 +22,8 @@ namespace trimtab {
 
 namespace {
 
-/// For a pipe or device there is nothing to keep, and renaming over it would destroy it. Nobody may be at the
-/// other end of a pipe, or take nothing from it.
+/// Writes to a pipe or device, where there is nothing to keep, and which renaming would destroy. Nobody may
+/// be at the other end of a pipe, or nobody who reads from it.
 Result<Done> writeInPlace(const std::filesystem::path& file, std::string_view bytes) {
   constexpr int kStandsStillMs = 2000;
   Descriptor out(::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));

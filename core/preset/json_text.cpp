@@ -46,15 +46,15 @@ void skipBlanks(std::string_view text, std::size_t& at) {
   while (at < text.size() && isBlank(text[at])) ++at;
 }
 
-/// From an opening quote to behind the closing one.
+/// Moves from an opening quote to behind the closing one.
 void skipString(std::string_view text, std::size_t& at) {
   for (++at; at < text.size() && text[at] != '"'; ++at)
     if (text[at] == '\\') ++at;
   at = std::min(at + 1, text.size());
 }
 
-/// From the first character of a value to behind its last. Counts brackets instead of recursing: files nest
-/// as they like.
+/// Moves from the first character of a value to behind its last. Counts brackets instead of recursing: files
+/// nest as they like.
 void skipValue(std::string_view text, std::size_t& at) {
   std::size_t depth = 0;
   while (at < text.size()) {

@@ -71,7 +71,7 @@ constexpr void (*kMigrations[])(const TuningParameters&, std::vector<RawParamete
     fromVersion1, fromVersion2};
 static_assert(std::size(kMigrations) == kPresetVersion - 1, "each older version needs its migration");
 
-/// What an image generator did before a parameter existed, where the parameter's default does otherwise.
+/// Says what an image generator did before a parameter existed, where the parameter's default does otherwise.
 struct FormerBehaviour {
   std::string_view key, value;
 };

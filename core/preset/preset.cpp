@@ -138,7 +138,7 @@ class Reader {
     return false;
   }
 
-  /// 0 where the file's version cannot be read.
+  /// Returns 0 if the file's version cannot be read.
   int readVersion() {
     const RawParameter* const version = member("version");
     const auto number = version ? readNumber(version->value) : std::nullopt;
@@ -281,7 +281,7 @@ Result<std::string> presetText(const Preset& preset) {
     parameters += (parameters.empty() ? "\n    " : ",\n    ") + json::stringText(key) + ": " + value;
   };
   for (const ParameterRow& row : parameterRows()) {
-    // As text, because a negative zero differs from zero and has to come back as one.
+    // The value is kept as text, because a negative zero differs from zero and has to come back as one.
     std::string value = json::valueText(row, row.get(preset.parameters));
     if (value != json::valueText(row, row.get(*base))) parameter(row.key, value);
   }

@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kTextKeys[] = {"format",  "name",    "author",  "created",
                                           "program", "terrain", "comment", "checksum"};
 
-/// The inverse of what an export does to a text of several lines.
+/// Undoes what an export does to a text of several lines.
 std::string unescaped(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -43,7 +43,7 @@ Result<std::string> jsonOf(const std::string& key, std::string_view plain) {
     return value.findings();
   }
   const bool isText = std::find(std::begin(kTextKeys), std::end(kTextKeys), key) != std::end(kTextKeys);
-  // What reads as a number but is none in JSON, as "8." and "nan", is kept as a text.
+  // A text that reads as a number but is none in JSON, such as "8." and "nan", stays a text.
   const bool isNumber = !isText && readNumber(plain) && json::checkSyntax(plain, key);
   return isNumber ? std::string(plain) : json::stringText(plain);
 }

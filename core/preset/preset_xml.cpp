@@ -12,7 +12,7 @@ constexpr int kDeepest = 8;
 constexpr std::size_t kLongestPrefix = 200;
 constexpr std::string_view kDeclaredEncodings[] = {"", "UTF-8", "utf-8"};
 
-/// A numbered element as a word of the parameter's plain text: "x:y", "low:WIDTHxHEIGHT", or a rule.
+/// Returns a numbered element as a word of the parameter's plain text: "x:y", "low:WIDTHxHEIGHT", or a rule.
 std::string wordOf(const pugi::xml_node& element) {
   const std::string_view name = element.name();
   const auto leaf = [&element](const char* child) { return std::string(element.child_value(child)); };

@@ -7,10 +7,11 @@
 #include "trimtab/preset/choices.h"
 #include "trimtab/preset/table.h"
 
-/// How one field becomes one row, and what the compiler checks of the table. Only rows.cpp and tests need it.
+/// Declares how one field becomes one row, and what the compiler checks of the table. Only rows.cpp and tests
+/// need it.
 namespace trimtab::table {
 
-/// What a row says beyond what its field's type says.
+/// Says what a row says beyond what its field's type says.
 struct RowText {
   std::string_view key{}, label{}, help{}, source{};
   Range hard{}, usual{};
@@ -151,7 +152,7 @@ constexpr bool within(double value, Range range) {
   return value >= range.low && value <= range.high;
 }
 
-/// The row of one field. A row that contradicts its field does not compile; the throw that the compiler
+/// Makes the row of one field. A row that contradicts its field does not compile; the throw that the compiler
 /// quotes says why.
 template <auto Group, auto Field>
 consteval CheckedRow row(const RowText& text) {
@@ -216,7 +217,7 @@ constexpr auto joined(const std::array<CheckedRow, Sizes>&... lists) {
   return all;
 }
 
-/// The part of a key that makes its group: "fuzzy.altitude" of "fuzzy.altitude.reading".
+/// Returns the part of a key that makes its group: "fuzzy.altitude" of "fuzzy.altitude.reading".
 constexpr std::string_view prefixOf(std::string_view key) {
   const std::size_t dot = key.rfind('.');
   return dot == std::string_view::npos ? std::string_view{} : key.substr(0, dot);
@@ -240,7 +241,8 @@ consteval bool keysAreOrderly(const std::array<CheckedRow, N>& rows) {
   return true;
 }
 
-/// As many different fields as all groups have, and all groups: so every field has exactly one row.
+/// Reports whether every field has exactly one row: no field has two, no group is missing, and there are as
+/// many rows as fields.
 template <std::size_t N>
 consteval bool everyFieldHasOneRow(const std::array<CheckedRow, N>& rows) {
   std::size_t groups = 0, fields = 0;

@@ -24,7 +24,7 @@ Json whole(Range range) {
   return schema;
 }
 
-/// A list of tuples, each element by its own schema.
+/// Describes a list of tuples, each element by its own schema.
 Json tuples(std::size_t atLeast, std::size_t atMost, const std::vector<Json>& elements) {
   Json tuple;
   tuple["type"] = "array";

@@ -5,7 +5,7 @@
 /// Rows of the helmet-mounted display's symbols.
 namespace trimtab::table {
 
-/// The five rows of one symbol. `placeHelp` says what x and y mean for it.
+/// Makes the five rows of one symbol. `placeHelp` says what x and y mean for it.
 template <auto Group, Literal Name, Literal Label>
 consteval std::array<CheckedRow, 5> symbolRows(std::string_view whatItShows, std::string_view placeHelp) {
   constexpr std::string_view kSource = "C: symbols of the HMD, set by the user";

@@ -12,7 +12,7 @@ namespace trimtab {
 
 namespace {
 
-/// The text up to the next blank, which is taken off `rest`; empty at the end.
+/// Returns the text up to the next blank, which is removed from `rest`; empty at the end.
 std::string_view nextWord(std::string_view& rest) {
   rest = trimmed(rest);
   const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r\n"));

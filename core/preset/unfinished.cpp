@@ -28,10 +28,11 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "trimtab-mark 1";
 constexpr std::string_view kMarkEnding = ".mark";
-/// What follows a target's name in those of its unfinished files; the second did so before there were marks.
+/// These texts follow a target's name in the names of its unfinished files; the second did so before there
+/// were marks.
 constexpr std::string_view kUnfinished = ".trimtab-", kFormerly = ".part-";
 
-/// What a mark says: whose work it is, and which process does it.
+/// Holds what a mark says: whose work it is, and which process does it.
 struct Mark {
   std::string entry;
   pid_t process = 0;
@@ -44,8 +45,9 @@ struct Mark {
   }
 };
 
-/// When a process of this machine began, in the system's ticks; nothing if there is none, or it only waits to
-/// be asked how it ended. The number of a process is given to others later on, its number and start never.
+/// Returns when a process of this machine began, in the system's ticks; unset if there is none, or it only
+/// waits to be asked how it ended. The system may give the number of a process to others later on, but never
+/// its number and start.
 std::optional<std::uint64_t> startOf(pid_t process) {
   std::ifstream in("/proc/" + std::to_string(process) + "/stat");
   std::string text;
@@ -69,7 +71,7 @@ Mark markOf(const std::string& entry) {
   return {entry, ::getpid(), startOf(::getpid()).value_or(0), thisBoot()};
 }
 
-/// Nothing if the file is not a mark, to the last byte.
+/// Returns nothing if the file is not a mark, to the last byte.
 std::optional<Mark> readMark(int handle) {
   std::string text(4096, '\0');
   const ssize_t count = ::pread(handle, text.data(), text.size(), 0);
@@ -98,7 +100,7 @@ bool isDead(const Descriptor& handle, const Mark& mark) {
 fs::path withName(const fs::path& target) {
   return target.has_filename() ? target : target.parent_path();
 }
-/// The target of links, where they lead somewhere.
+/// Returns the target of links, where they lead somewhere.
 fs::path throughLinks(const fs::path& target) {
   std::error_code failed;
   const fs::path real = fs::weakly_canonical(withName(target), failed);
@@ -186,7 +188,7 @@ Found clearMarked(const fs::path& folder, const std::string& entry, IsOwn isOwn)
   return Found::ended;
 }
 
-/// The name of a mark without its ending; empty if it is no name of a mark.
+/// Returns the name of a mark without its ending; empty if it is no name of a mark.
 std::string entryOf(const std::string& name) {
   return name.ends_with(kMarkEnding) ? name.substr(0, name.size() - kMarkEnding.size()) : std::string();
 }

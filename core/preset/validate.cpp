@@ -183,7 +183,8 @@ constexpr std::array kRules{
          "Twice the hysteresis is less than the narrowest band; the last band reaches up to 2.",
          hysteresisLeavesBands,
          [](const TuningParameters& p) {
-           // To twelve digits: a difference of two typed edges should read as people would write it.
+           // The difference is rounded to twelve digits: one of two typed edges should read as people would
+           // write it.
            const double half = narrowestBand(p.scheme.bands) / 2;
            const double scale = half > 0 ? std::pow(10, 11 - std::floor(std::log10(half))) : 1;
            return "less than " + numberText(std::round(half * scale) / scale) + ", half the narrowest band";

@@ -45,7 +45,7 @@ consteval RowText farStretch(std::string_view key, std::string_view label) {
           .logarithmic = true};
 }
 
-/// The rows of one kind's look.
+/// Makes the rows of one kind's look.
 template <auto Group, Literal Name, Literal Label>
 consteval std::array<CheckedRow, 5> lookRows() {
   constexpr std::string_view kSource = "D: section 4, colour and fall speed of the particles";

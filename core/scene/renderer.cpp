@@ -52,7 +52,7 @@ struct Renderer::Impl {
   std::optional<SceneView> shown;  ///< the last image's
   std::vector<LineVertex> lines;
 
-  /// What lives in the context, but for the terrain.
+  /// Holds what lives in the context, but for the terrain.
   struct Gl {
     Gl(ScenePasses passes, bool software) : blur(software), scaleUp(software), graph(std::move(passes)) {}
     FrameBuffer frame;
@@ -108,7 +108,7 @@ void Renderer::Impl::removeHidden() {
   gl->clock.lap(&FrameCost::occlusion);
 }
 
-/// What of a frame's view follows from the request alone.
+/// Returns the part of a frame's view that follows from the request alone.
 SceneView Renderer::Impl::viewOf(const FrameRequest& r) const {
   SceneView view;
   view.shape = r.view;
@@ -251,7 +251,7 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   return result;
 }
 
-/// What others who share the context take for granted.
+/// Leaves the context as others who share it assume it to be.
 void Renderer::Impl::leaveContext(unsigned fbo) {
   glBindFramebuffer(GL_FRAMEBUFFER, fbo);
   glUseProgram(0);

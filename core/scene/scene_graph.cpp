@@ -77,7 +77,7 @@ Pass* addPass(osg::Group* group, ScenePasses::Call call, int order, const Shader
   return pass;
 }
 
-/// A call at a place in the frame; nothing is drawn by it.
+/// Adds a call at a place in the frame; nothing is drawn by it.
 Pass* addMark(osg::Group* group, ScenePasses::Call call, int order) {
   Pass* pass = new Pass(std::move(call));
   pass->getOrCreateStateSet()->setRenderBinDetails(order, "RenderBin");
@@ -124,7 +124,7 @@ class Uniforms {
   void set(const char* name, Type type, const Values&... values) {
     state_->getOrCreateUniform(name, type)->set(values...);
   }
-  /// In whole units of 16 m and a rest of at most 8 m: relative_position.glsl says why.
+  /// The eye is given in whole units of 16 m and a rest of at most 8 m: relative_position.glsl says why.
   void setEye(Vec3 p) {
     const auto whole = [](double x) { return static_cast<int>(std::lround(x / 16)); };
     const int x = whole(p.x), y = whole(p.y), z = whole(p.z);
@@ -144,7 +144,7 @@ void define(osg::StateSet* state, const char* name, bool on) {
     state->removeDefine(name);
 }
 
-/// How far the corner of a pixel is from its centre, at distance 1.
+/// Returns how far the corner of a pixel is from its centre, at distance 1.
 double halfDiagonal(const ViewShape& v, int widthPx, int heightPx) {
   return 0.5 * std::hypot((v.right - v.left) / widthPx, (v.top - v.bottom) / heightPx);
 }
@@ -202,7 +202,7 @@ struct SceneGraph::Nodes {
     sky = addPass(
         root, [](unsigned) { glDrawArrays(GL_TRIANGLES, 0, 3); }, 4,
         shaderPair("screen.vert.glsl", "sky.frag.glsl"));
-    // Where nothing was drawn depth still is 0, infinitely far.
+    // Where nothing was drawn, depth still is 0, infinitely far.
     sky->getStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::GEQUAL, 0, 1, false));
 
     root->addChild(precipitation.node());
@@ -236,8 +236,8 @@ struct SceneGraph::Nodes {
     uniforms.set("tints", Type::INT, kTintUnit);
   }
 
-  /// The papers' z-map camera: subordinate to the main one, with its matrices, drawn before it in the same
-  /// frame. Its framebuffer is the passes' own.
+  /// Makes the papers' z-map camera: subordinate to the main one, with its matrices, drawn before it in the
+  /// same frame. Its framebuffer is the passes' own.
   void makeDepthCamera(ScenePasses& passes) {
     depthCamera->setRenderOrder(osg::Camera::PRE_RENDER);
     depthCamera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
@@ -295,9 +295,8 @@ struct SceneGraph::Nodes {
     uniforms.set("shift", Type::FLOAT, static_cast<float>(depth.shiftTexels));
   }
 
-  /// Whoever shares the context (a widget's painter) has changed state behind OSG's back.
-  /// State::dirtyAllModes only flips what OSG believes, so what is true and what is believed are brought
-  /// together here.
+  /// Undoes what others who share the context (a widget's painter) changed behind OSG's back.
+  /// State::dirtyAllModes only flips what OSG believes, so this brings that and the true state together.
   void settleState() {
     osg::State* state = window->getState();
     for (const GLenum off :
@@ -343,7 +342,8 @@ SceneGraph::~SceneGraph() {
   osg::State* state = nodes_->window->getState();
   nodes_->root->releaseGLObjects(state);
   nodes_->viewer->getCamera()->releaseGLObjects(state);
-  // While the window lives: with the last window of a context, OSG forgets the context's lists.
+  // The objects are flushed while the window lives: with the last window of a context, OSG forgets the
+  // context's lists.
   osg::flushAllDeletedGLObjects(state->getContextID());
 }
 

@@ -16,8 +16,8 @@ namespace trimtab::scene {
 
 osg::Vec3f toFloat(Vec3 v);
 
-/// What the graph calls, in the order of a frame; raw GL is allowed inside. Each call gets the program in
-/// use.
+/// Names what the graph calls, in the order of a frame; raw GL is allowed inside. Each call gets the program
+/// in use.
 struct ScenePasses {
   using Call = std::function<void(unsigned program)>;
   Call begin;      ///< OSG's cull is done and nothing is drawn yet

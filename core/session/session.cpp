@@ -16,7 +16,7 @@
 namespace trimtab {
 namespace {
 
-/// How long a jump is shown.
+/// A jump is shown for so many seconds.
 constexpr double kJumpShownS = 1;
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
@@ -50,7 +50,8 @@ void Session::setParameters(const ValidatedParameters& parameters) {
   decided_.aboveGround = groundBelow(decided_.state);
   decided_.highestGround = highestGround();
   DecisionMemory copy = looking_ ? lookMemory_ : memory_;
-  // From where its state was decided: no time passes in an edit, and a head would seem to stand still.
+  // The head's memory is that of before the state was decided: no time passes in an edit, and a head would
+  // seem to rest.
   copy.motion = motionBefore_;
   decideInput(copy);
 }
@@ -131,7 +132,8 @@ void Session::restart() {
   *this = std::move(fresh);
 }
 
-/// Where the host does not say, and only if the decision wants it: a height from the terrain costs a look-up.
+/// Returns the height that the host sent, else one above the terrain, but only if the decision wants it: it
+/// costs a look-up.
 std::optional<Metres> Session::groundBelow(const AircraftState& state) const {
   if (state.aboveGround) return state.aboveGround;
   const CompiledPolicy* const policy = parameters_.policy();
@@ -146,7 +148,7 @@ std::optional<Metres> Session::heightOverTerrain(const AircraftState& state) con
   return ground ? std::optional(state.position.height - *ground) : std::nullopt;
 }
 
-/// Only if the decision wants it, so that traces of other presets do not depend on the terrain.
+/// Returns it only if the decision wants it, so that traces of other presets do not depend on the terrain.
 std::optional<Metres> Session::highestGround() const {
   if (parameters_->weather.air != AirModel::layer || !ground_) return std::nullopt;
   return ground_->highest();
@@ -233,13 +235,13 @@ void Session::decideWith(DecisionMemory& memory) {
     rows_.push_back({decided_, before, decision_, leversOf(decision_, *parameters_)});
 }
 
-/// Whether an image's own state is decided instead of each state that arrives.
+/// Reports whether an image's own state is decided instead of each state that arrives.
 bool Session::decidesImages() const {
   return linked_ && parameters_->motion.control != MotionControl::off &&
          parameters_->motion.frames == MotionFrames::drawn;
 }
 
-/// A state that only moves the eye on.
+/// Moves the eye on to a state without deciding it.
 void Session::arrive(const AircraftState& state, double kernelTime) {
   if (std::exchange(looking_, false)) groundVelocity_.restart();
   const bool first = packets_++ == 0;

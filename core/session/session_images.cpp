@@ -8,7 +8,7 @@
 #include "trimtab/units/not_finite.h"
 #include "trimtab/weather/weather.h"
 
-/// What a session says of images: when one is due, what it asks for, and what it took.
+/// Implements what a session says of images: when one is due, what it asks for, and what it cost.
 namespace trimtab {
 namespace {
 
@@ -35,13 +35,14 @@ bool Session::needsPicture(double now) const {
   return !samePose(eye, *drawnEye_) || darkAt(eye.time) != drawnDark_;
 }
 
-/// The symbols of the host that an image at `time` does not show, because they flash.
+/// Returns the symbols of the host that an image at `time` does not show, because they flash.
 std::vector<std::uint16_t> Session::darkAt(double time) const {
   if (!hostSymbols_ || !parameters_->symbology.enabled || !parameters_->symbolHost.show) return {};
   return darkSymbols(*hostSymbols_, time);
 }
 
-/// What the host does not send is derived from its positions, and labelled so.
+/// Returns the aircraft's state for symbols; what the host does not send is derived from its positions, and
+/// labelled so.
 SymbologyState Session::symbols(const AircraftState& eye) const {
   SymbologyState symbols;
   symbols.aircraft = eye.attitude;

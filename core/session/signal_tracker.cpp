@@ -87,7 +87,7 @@ bool SignalTracker::restsAt(const View& view, const View& now) {
          within(view.sight.roll, now.sight.roll, kDegrees) && view.visibilityM == now.visibilityM;
 }
 
-/// Whether the signal follows; notes the way and the turn if it does.
+/// Reports whether the signal follows; notes the direction and the turn if it does.
 bool SignalTracker::mayChange(double from, double to, double band, bool risesAlways, Loop& loop) {
   constexpr int kMostTurns = 2;
   const int way = (to > from) - (to < from);

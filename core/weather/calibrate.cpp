@@ -29,7 +29,7 @@ class Search {
   WeatherDecision fogged() const { return decideWeather(AircraftState{}, parameters_); }
   std::optional<double> median(const WeatherDecision& decision);
   std::optional<double> clearFrame();
-  /// The step at a far plane (infinity: uncut) and density; the trial is kept.
+  /// Measures the step at a far plane (infinity: uncut) and density; the trial is kept.
   std::optional<double> frame(double farM, double density);
   bool pushOut();
   bool thinOut();
@@ -93,8 +93,8 @@ void Search::take(double farM, double density, double ms) {
   result_.matchedMs = ms;
 }
 
-/// Step 4: the cut wins more than the weather costs. By halves of the logarithm, because what a far plane
-/// costs grows with its square near the eye and with nothing once it is beyond the terrain.
+/// Step 4: the cut wins more than the weather costs. It goes by halves of the logarithm, because what a far
+/// plane costs grows with its square near the eye and with nothing once it is beyond the terrain.
 bool Search::pushOut() {
   double low = result_.visibilityM, high = std::max(settings_.farthestM, low);
   result_.outcome = CalibrationOutcome::not_settled;
@@ -114,7 +114,7 @@ bool Search::pushOut() {
   return true;
 }
 
-/// The strongest cut is not enough: the densest precipitation that it pays for.
+/// Looks for the densest precipitation that the strongest cut pays for, because that cut is not enough.
 bool Search::thinOut() {
   const double farM = result_.visibilityM;
   const std::optional<double> none = frame(farM, 0);
@@ -154,7 +154,7 @@ bool Search::isMonotone() const {
   return true;
 }
 
-/// The clear frame once more: what is measured between two different ones cannot be trusted.
+/// Measures the clear frame once more: what is measured between two different ones cannot be trusted.
 void Search::lookAgain() {
   if (stopped_ || result_.outcome == CalibrationOutcome::not_a_number) return;
   const auto clear = clearFrame();

@@ -12,8 +12,8 @@ const double kHidingDepth = std::log(256.0);
 constexpr double kHeightMarginM = 100, kFarthestM = 400e3;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// The least share of a ray from the eye to ground of this height that lies in the layer; NaN for any height
-/// that is not a number.
+/// Returns the least share of a ray from the eye to ground of this height that lies in the layer; NaN for any
+/// height that is not a number.
 double leastShare(double topM, double eyeM, double groundM) {
   const double lower = std::min(eyeM, groundM), higher = std::max(eyeM, groundM);
   if (higher <= topM) return 1;

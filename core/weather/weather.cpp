@@ -11,7 +11,7 @@
 namespace trimtab {
 namespace {
 
-/// What a fog can be drawn for; the same as the rows' range.
+/// A fog can be drawn for these visibilities, metres; they are the same as the rows' range.
 constexpr double kNearestVisibility = 10, kFarthestVisibility = 1e6;
 
 constexpr std::array<WeatherStepParameters TuningParameters::*, 6> kGroups{
@@ -28,7 +28,7 @@ bool usable(const std::optional<Metres>& visibility) {
   return visibility && visibility->value() > 0;
 }
 
-/// The nearer of what a host says of the atmosphere and of the layer that falls; 0 when it says nothing
+/// Returns the nearer of what a host says of the atmosphere and of the layer that falls; 0 if it says nothing
 /// usable.
 double hostVisibilityM(const AircraftState& state) {
   const std::optional<Metres> none;
@@ -56,8 +56,8 @@ bool isLayer(const WeatherDecision& d) {
   return d.layerTopM < WeatherDecision::kUnlimited;
 }
 
-/// The adaptive ratio in a layer of haze: nothing that can be seen is cut, and a calibration may push the far
-/// plane out from there.
+/// Sets the adaptive ratio in a layer of haze: nothing that can be seen is cut, and a calibration may push
+/// the far plane out from there.
 void setSafeFarPlane(WeatherDecision& d, const WeatherParameters& p, double stretch) {
   const double pushedM = stretch > 1 ? d.visibilityM * stretch : 0;
   d.farM = std::max(d.safeFarM, pushedM);

@@ -8,7 +8,8 @@ namespace trimtab::scene {
 /// Replaces `buffer` (0 if there is none yet) by one of `after` bytes and keeps its first `before` bytes.
 /// Returns false and leaves it as it was if there is no memory for that.
 bool growBuffer(unsigned& buffer, std::size_t before, std::size_t after);
-/// While it lives, there is no memory for a buffer that grows beyond so many bytes. For tests.
+/// Lets no buffer grow beyond so many bytes while it lives, as if there were no memory for it. It serves
+/// tests.
 class ScarceMemory {
  public:
   explicit ScarceMemory(std::size_t mostBytes);

@@ -70,7 +70,7 @@ bool MeshPool::growVertices(std::uint32_t after) {
   GLint mostTexels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &mostTexels);
   if (after * layout_.slotBytes > static_cast<std::size_t>(mostTexels) * 4 * sizeof(GLint)) return false;
-  // What is staged belongs into the buffers that growing replaces.
+  // The staged bytes belong into the buffers that growing replaces.
   send();
   const bool grown = growBuffer(vertices_.buffer, before * blockBytes, after * blockBytes) &&
                      growBuffer(slots_.buffer, before * layout_.slotBytes, after * layout_.slotBytes);

@@ -97,7 +97,8 @@ void MultiDraw::drawPart(unsigned indexType, bool numbered, std::size_t first, s
 }
 
 void MultiDraw::drawIndirect(unsigned indexType, std::size_t first, std::size_t count) {
-  // All of it anew, so that the driver need not wait for the frame that still reads the old.
+  // The buffer is uploaded as a whole, so that the driver need not wait for the frame that still reads the
+  // old one.
   if (!passed_) uploadBuffer(buffer_, commands_.data(), commands_.size() * sizeof(Command));
   passed_ = true;
   glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer_);

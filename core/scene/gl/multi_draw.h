@@ -10,8 +10,8 @@
 
 namespace trimtab::scene {
 
-/// How the draws of many meshes that share their buffers reach GL. All ways draw the same triangles in the
-/// same order.
+/// Says how the draws of many meshes that share their buffers reach GL. All ways draw the same triangles in
+/// the same order.
 enum class DrawWay : std::uint8_t {
   indirect,     ///< one call; the commands are in a buffer of the GPU
   base_vertex,  ///< one call; the commands are in arrays of this program
@@ -25,7 +25,7 @@ struct DrawChoice {
 /// Returns the best way for the current context, which has GL 4.5 and so has all of them.
 DrawChoice drawChoiceOfContext();
 
-/// While it lives, drawChoiceOfContext() returns this way. For tests and measurements.
+/// Makes drawChoiceOfContext() return this way while it lives. It serves tests and measurements.
 class ForcedDrawWay {
  public:
   explicit ForcedDrawWay(DrawWay way);

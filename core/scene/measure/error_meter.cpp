@@ -17,15 +17,16 @@
 namespace trimtab::scene {
 namespace {
 
-/// So small that the finest level is chosen wherever levels differ at all.
+/// The error is so small that the finest level is chosen wherever levels differ at all.
 constexpr Pixels kFinest{1e-6};
-/// For patches: finest wherever an image could tell, and not a whole country's.
+/// Patches are drawn at the finest level wherever an image could show the difference, and not over a whole
+/// country.
 constexpr Pixels kFinestPatches{0.125};
 constexpr Megabytes kReferenceCache{8192};
 /// An earlier image at this weight is a quarter of a grey level of the mix.
 constexpr double kNoTrace = 1.0 / 1024;
 
-/// What both images leave out.
+/// Returns a request without what both images leave out.
 FrameRequest withoutEngineer(const FrameRequest& request) {
   FrameRequest r = request;
   if (asksForTrees(request)) r.staticLod.terrain = TerrainForm::static_trees;
@@ -39,7 +40,7 @@ FrameRequest withoutEngineer(const FrameRequest& request) {
   return r;
 }
 
-/// The first of `frames` that has a trace in the image of frames[last].
+/// Returns the first of `frames` that has a trace in the image of frames[last].
 std::size_t firstTraceIn(std::span<const FrameRequest> frames, std::size_t last) {
   double weight = 1;
   std::size_t first = last;
@@ -54,7 +55,7 @@ std::size_t firstTraceIn(std::span<const FrameRequest> frames, std::size_t last)
   return first;
 }
 
-/// Pixels that a node would own which was left out.
+/// Counts the pixels that a node would own which was left out.
 std::uint64_t wronglyCulled(const std::vector<std::uint32_t>& unculled, const VisibleSet& visible) {
   std::uint64_t pixels = 0;
   std::uint32_t last = 0;
@@ -124,7 +125,7 @@ double temporalPop(std::span<const std::uint8_t> referenceBefore, std::span<cons
 
 namespace {
 
-/// All that the image of a reference depends on.
+/// Holds all that the image of a reference depends on.
 struct ReferenceKey {
   GeodeticPosition eye;
   Attitude attitude;
@@ -170,7 +171,7 @@ ReferenceKey keyOf(const FrameRequest& r) {
   return key;
 }
 
-/// Enough for a frame and the one before it in two kinds of weather.
+/// So many references are enough for a frame and the one before it in two kinds of weather.
 constexpr std::size_t kKeptReferences = 4;
 
 /// Keeps the framebuffers that are bound, and the viewport.

@@ -60,13 +60,14 @@ void BlurPass::resize(int width, int height) {
 void BlurPass::makeTargets() {
   glGenTextures(2, texture_.data());
   glGenFramebuffers(2, frame_.data());
-  // Written along with the sum: converting one image into the other afterwards took longer than the mix.
+  // The image shown is written along with the sum: converting one image into the other afterwards took longer
+  // than the mix.
   glGenTextures(1, &shown_);
   glBindTexture(GL_TEXTURE_2D, shown_);
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width_, height_);
   for (std::size_t i = 0; i < 2; ++i) {
     glBindTexture(GL_TEXTURE_2D, texture_[i]);
-    // 32 bits: at 450 images a second a long trail moves by less than half floats can tell apart, and would
+    // 32 bits: at 450 images a second a long trail moves by less than half floats can distinguish, and would
     // stand still several grey levels before its end.
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA32F, width_, height_);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);

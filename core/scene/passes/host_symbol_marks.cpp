@@ -36,7 +36,7 @@ struct Affine {
             {u.x - origin.x, u.y - origin.y},
             at(first.origin.x, first.origin.y)};
   }
-  /// How much it stretches lengths, in the mean of both axes.
+  /// Returns by how much it stretches lengths, in the mean of both axes.
   double stretch() const { return std::sqrt(std::abs(right.x * up.y - right.y * up.x)); }
 };
 
@@ -213,8 +213,8 @@ void Marker::circle(const HostArc& arc) {
   const double start = static_cast<double>(arc.startDeg);
   double sweep = std::fmod(static_cast<double>(arc.endDeg) - start, 360.0);
   if (sweep <= 0) sweep += 360;
-  // Enough sides that none is a quarter of a pixel off its arc; a circle far larger than an image has no
-  // more.
+  // An arc gets so many sides that none is a quarter of a pixel off it; a circle far larger than an image
+  // gets no more.
   const double radiusPx = static_cast<double>(arc.radius) * toPixels_.stretch();
   const int sides =
       static_cast<int>(std::ceil(std::clamp(4.5 * std::sqrt(radiusPx), 12.0, 240.0) * sweep / 360));
@@ -239,7 +239,7 @@ void Marker::glyphAt(char character, double u, double v, double unit) {
     line(toPixels_.at(u + g.x0 * unit, v + g.y0 * unit), toPixels_.at(u + g.x1 * unit, v + g.y1 * unit));
 }
 
-/// Small letters are written as capitals; a character that the font lacks leaves its place blank.
+/// Small letters are written as capitals; a character that the font misses leaves its place blank.
 void Marker::text() {
   std::string characters;
   for (const char c : shape_.text)

@@ -12,7 +12,7 @@
 namespace trimtab::scene {
 namespace {
 
-/// How long a particle draws its streak, seconds, and the streak's greatest length, metres.
+/// A particle draws its streak for so long, seconds, and the streak is at most this long, metres.
 constexpr double kExposureS = 1.0 / 40, kLongestStreakM = 0.9;
 /// A fainter particle changes no pixel that one would notice.
 constexpr double kFaintest = 0.012;
@@ -45,7 +45,7 @@ constexpr std::array<Shell, 5> kSnowShells{{{0.8, 4, 160, 1.1},
 /// Width times height of a view at distance 1, 60 by 36 degrees.
 constexpr double kReferenceArea = 0.75;
 
-/// What distinguishes rain from snow.
+/// Says what distinguishes rain from snow.
 struct Kind {
   std::span<const Shell> shells;
   double opacity;    ///< of a particle that does not move
@@ -78,7 +78,7 @@ double extinctionAtEye(const SceneView& view) {
   return above ? 0 : double{view.air.extinction};
 }
 
-/// The finaliser of SplitMix64.
+/// Applies the finaliser of SplitMix64.
 std::uint64_t mixed(std::uint64_t x) {
   x ^= x >> 30;
   x *= 0xbf58476d1ce4e5b9u;
@@ -93,7 +93,7 @@ Vec3 unitVector(std::uint64_t bits) {
   return {part(bits), part(bits >> 21), part(bits >> 42)};
 }
 
-/// Once forth and back for x from 0 to 1, about like a sine.
+/// Swings once forth and back for x from 0 to 1, about like a sine.
 double swing(double x) {
   const double t = 2 * (x - std::floor(x)) - 1;
   return 4 * t * (1 - std::abs(t));
@@ -121,12 +121,12 @@ class Pyramid {
   const double left, right, bottom, top;  ///< tangents
 
  private:
-  /// What a metre square to each side is, measured across the view.
+  /// Measures of a metre that is square to each side, across the view.
   const std::array<double, 4> slant_{std::hypot(1, left), std::hypot(1, right), std::hypot(1, bottom),
                                      std::hypot(1, top)};
 };
 
-/// What the particles of all shells share.
+/// Holds what the particles of all shells share.
 struct Search {
   const PrecipitationView& falling;
   const SceneView& view;
@@ -154,7 +154,8 @@ struct Search {
   void searchCell(const Shell& shell, double far, Vec3 corner, double side, std::uint64_t seed, double count);
 };
 
-/// Beyond this a particle is narrower than three quarters of a pixel, or fog leaves a fiftieth of it.
+/// Returns the distance beyond which a particle is narrower than three quarters of a pixel, or fog leaves a
+/// fiftieth of it.
 double Search::farthest(const Shell& shell) const {
   const double wide = 2 * radiusOf(shell) * pixelsPerMetre / 0.75;
   const double clear = extinction > 0 ? 3.9 / extinction : shell.farM;

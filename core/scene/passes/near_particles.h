@@ -18,7 +18,7 @@ struct NearParticle {
   double strength = 0;  ///< 0..1, of its opacity at the middle
 };
 
-/// How all particles of a frame move and look.
+/// Says how all particles of a frame move and look.
 struct ParticleMotion {
   Vec3 fall;    ///< through the local frame while it lies in still air, metres per second
   Vec3 streak;  ///< eye axes, metres: from a particle back to where it was when the exposure began
@@ -26,7 +26,7 @@ struct ParticleMotion {
 };
 ParticleMotion particleMotion(const PrecipitationView& falling, const SceneView& view);
 
-/// No frame has more.
+/// No frame draws more particles than that.
 inline constexpr std::size_t kMostParticles = 12'000;
 
 /// Replaces `particles` by those in view. Each stands in a lattice of cells that the air carries and that
@@ -37,7 +37,7 @@ inline constexpr std::size_t kMostParticles = 12'000;
 /// share, those that are left are stronger by as much, as far as none is more than opaque, so that rain looks
 /// as dense and takes less time.
 ///
-/// Takes some 20 ns a particle. Numbers that are not finite count as 0; a view without an area has no
+/// Costs some 20 ns per particle. Numbers that are not finite count as 0; a view without an area has no
 /// particles.
 void findNearParticles(const PrecipitationView& falling, const SceneView& view,
                        std::vector<NearParticle>& particles);

@@ -18,7 +18,7 @@ void NodeTarget::begin(int width, int height) {
 void nearView(std::span<const TileDraw> tiles, std::span<const Box> bounds, const EyePose& eye,
               const ViewShape& view, std::vector<TileDraw>& near) {
   near.clear();
-  // Outward normals of the view's sides, in eye axes (right, up, backward).
+  // These are the outward normals of the view's sides, in eye axes (right, up, backward).
   const auto side = [](Vec3 normal) { return normalized(normal); };
   const std::array<Vec3, 4> sides{side({-1, 0, -view.left}), side({1, 0, view.right}),
                                   side({0, -1, -view.bottom}), side({0, 1, view.top})};

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kCorners = 4, kIndices = 6;
 static_assert(kMostParticles * kCorners <= 65536, "indices have 16 bits");
 
-/// Between the middles of two pixels, a streak of one pixel would come and go.
+/// A streak of one pixel would come and go between the middles of two pixels.
 constexpr double kLeastHalfWidthPx = 1;
 
 std::vector<std::uint16_t> quadIndices() {

@@ -55,7 +55,7 @@ constexpr Drawing kDrawings[] = {
     {'*', "1434361614"},
 };
 
-/// All glyphs' lines in one array, and where each character's begin.
+/// Holds all glyphs' lines in one array, and where each character's begin.
 struct Font {
   std::vector<GlyphLine> lines;
   std::array<std::size_t, 129> first{};

@@ -29,7 +29,7 @@ bool isKnown(const Attitude& a) {
   return std::isfinite(a.heading.value()) && std::isfinite(a.pitch.value()) && std::isfinite(a.roll.value());
 }
 
-/// Three digits, 000 to 359.
+/// Returns three digits, 000 to 359.
 std::string_view headingText(double degrees, std::array<char, 16>& buffer) {
   const int whole = (static_cast<int>(std::lround(degrees)) % 360 + 360) % 360;
   return {buffer.data(),
@@ -64,7 +64,7 @@ class Drawer {
   bool onAircraft() const { return setup_.general.frame == SymbologyFrame::aircraft; }
   double size(Symbol symbol) const { return element(symbol).size.value(); }
 
-  /// A sheet around a direction of the world, upright in the image, unit as of the image's middle.
+  /// Returns a sheet around a direction of the world, upright in the image, unit as of the image's middle.
   Sheet around(Vec3 direction, double scale) const {
     const double unit = canvas_.tangentPerUnit() * scale;
     Vec3 right = cross(direction, Vec3{0, 1, 0});
@@ -72,7 +72,7 @@ class Drawer {
     right = length(right) > 1e-9 ? normalized(right) : Vec3{1, 0, 0};
     return {direction, right * unit, cross(right, direction) * unit};
   }
-  /// A sheet in the image, or in the image as it is when the head looks straight ahead.
+  /// Returns a sheet in the image, or in the image as it is when the head looks straight ahead.
   Sheet placed(Symbol symbol) const {
     const SymbolElement& e = element(symbol);
     Sheet sheet = canvas_.picture(e.x.value(), e.y.value());
@@ -151,7 +151,7 @@ void Drawer::ladderBar(double elevationDeg, const Vec3& ahead, const Vec3& right
   }
 }
 
-/// A W between two wings, where the nose points.
+/// Draws a W between two wings, where the nose points.
 void Drawer::aircraftReference() {
   beginMoved(Symbol::aircraft_reference);
   const double unit = canvas_.tangentPerUnit() * size(Symbol::aircraft_reference);
@@ -163,7 +163,7 @@ void Drawer::aircraftReference() {
   }
 }
 
-/// A ring with wings and a fin.
+/// Draws a ring with wings and a fin.
 void Drawer::flightPath() {
   if (!state_.velocity) return;
   const Velocity& v = *state_.velocity;
@@ -181,7 +181,8 @@ void Drawer::flightPath() {
   canvas_.line(s, 0, kRing, 0, 0.06);
 }
 
-/// A cross in a broken ring where the eye looks, a pointer back to the nose, and the angles between the two.
+/// Draws a cross in a broken ring where the eye looks, a pointer back to the nose, and the angles between the
+/// two.
 void Drawer::lineOfSight() {
   beginMoved(Symbol::line_of_sight);
   const Sheet s = around({0, 0, -1}, size(Symbol::line_of_sight));

@@ -63,7 +63,7 @@ void SymbologyPass::add(const SymbolStroke& s, float halfWidth, std::array<std::
 void SymbologyPass::add(const HostMark& m) {
   if (m.halfWidth != HostMark::kFilled)
     return add(SymbolStroke{m.x[0], m.y[0], m.x[1], m.y[1], Symbol::host}, m.halfWidth, m.rgba);
-  // All of it lies within the width of a stroke of no length, so that it is covered whole.
+  // All of the mark lies within the width of a stroke of no length, so that it is covered whole.
   constexpr float kWhole = 1e6F;
   for (int i = 0; i < 3; ++i)
     vertices_.push_back({m.x[i], m.y[i], 0, 0, 0, kWhole, {m.rgba[0], m.rgba[1], m.rgba[2], m.rgba[3]}});

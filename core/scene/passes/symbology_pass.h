@@ -19,7 +19,7 @@ class SymbologyPass {
   /// Draws into the framebuffer that is bound. Returns true if the triangles were made, which `anew`
   /// demands.
   bool draw(const SymbologyRequest& request, const ViewShape& view, bool anew = false);
-  /// Returns how many of the host's symbols the triangles lack; see FrameCounters.
+  /// Returns how many of the host's symbols the triangles miss; see FrameCounters.
   std::size_t hostSymbolsLeftOut() const { return drawing_.hostSymbolsLeftOut; }
 
  private:

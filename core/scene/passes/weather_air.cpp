@@ -12,7 +12,7 @@ namespace {
 constexpr double kThickest = 100;
 /// Thick fog and heavy precipitation are greyer than haze.
 constexpr std::array<float, 3> kGrey{0.70f, 0.72f, 0.74f};
-/// Per metre; the fade is over within less than single precision resolves.
+/// Per metre: with this rate the fade is over within less than single precision resolves.
 constexpr float kNoFade = 1e6f;
 /// The shore of the Dead Sea lies 430 m below mean sea level.
 constexpr double kLowestGroundM = -500;

@@ -36,8 +36,8 @@ inline constexpr double kCutFade = 0.15;
 /// nothing, one below 0 everything.
 Air airOf(const WeatherDecision& weather, double farM);
 
-/// What haze_layer.glsl and sky.frag.glsl need to know of a layer, from the heights of the eye and of its
-/// top, metres above mean sea level.
+/// Holds what haze_layer.glsl and sky.frag.glsl need to know of a layer, from the heights of the eye and of
+/// its top, metres above mean sea level.
 struct LayerRoots {
   double fromCentre = 0;  ///< of the earth to the eye
   double top = 0;         ///< the square of that, less the square of the layer's radius

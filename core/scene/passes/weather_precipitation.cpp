@@ -20,7 +20,7 @@
 namespace trimtab::scene {
 namespace {
 
-/// How long a drop draws its streak, seconds, and its greatest length, metres.
+/// A drop draws its streak for so long, seconds, and the streak is at most this long, metres.
 constexpr double kExposureS = 1.0 / 30, kLongestStreakM = 0.8;
 /// The effect lays its cells out anew for each density, so the share that a policy moves goes in steps.
 constexpr double kShareSteps = 32;

@@ -15,15 +15,15 @@ namespace trimtab::scene {
 
 struct SceneView;
 
-/// What falls in one frame. Without density there is no such view.
+/// Says what falls in one frame. Without density there is no such view.
 struct PrecipitationView {
   Precipitation kind = Precipitation::rain;
   double density = 0;  ///< 0..1, the intensity of osgParticle::PrecipitationEffect
   double amount = 0;   ///< 0..1: as the density, but for the bounded form while it fades
   PrecipitationForm form = PrecipitationForm::bounded;
   double share = 1;  ///< of the particles of that intensity, those that are drawn, 0..1
-  /// How large the view is beside the image, 0..1. Whether a particle is too small to be seen is decided in
-  /// the image's pixels, or rain would vanish from a scene that is drawn smaller. The published effect
+  /// The size of the view relative to the image, 0..1. Whether a particle is too small to be seen is decided
+  /// in the image's pixels, or rain would vanish from a scene that is drawn smaller. The published effect
   /// ignores it.
   double renderScale = 1;
   double time = 0;  ///< seconds; the place of each drop depends on it alone

@@ -1,7 +1,7 @@
-// What air leaves of a colour, for the fragment shader of everything that has a place in the world: first the
+// Applies the air to a colour, for the fragment shader of everything that has a place in the world: first the
 // haze of clear air, then in weather its fog. Beyond the weather's far cut the fragment is discarded: the sky
-// shows there, and not the outline of the tiles. Only a frame that is cut has the `discard`. The distance comes
-// from a varying, because on a software rasteriser gl_FragCoord costs twice as much as the whole fog.
+// shows there, and not the outline of the tiles. Only a frame that is cut has the `discard`. The distance
+// comes from a varying, because on a software rasteriser gl_FragCoord costs twice as much as the whole fog.
 const vec3 haze = vec3(HAZE_RED, HAZE_GREEN, HAZE_BLUE);  // sRGB
 #ifdef IN_WEATHER
 uniform vec3 fog;  // sRGB
@@ -15,7 +15,7 @@ float metresInFog(vec3 fromEye, float metres) { return metres; }
 #endif
 #endif
 
-// The share of a colour that the haze of clear air leaves.
+// Returns the share of a colour that the haze of clear air leaves.
 float hazeLeaves(vec3 fromEye) { return exp(-length(fromEye) * (1.0 / HAZE_DISTANCE)); }
 
 // `clearness` is what hazeLeaves returns; `fromEye` is in metres.

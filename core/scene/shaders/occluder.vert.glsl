@@ -13,7 +13,7 @@ void main() {
   vec4 limits = intBitsToFloat(texelFetch(slots, slot * 2 + 1));  // reach, farReach, farSlope, edge
   vec3 p = relativePosition(vertexPosition.xyz, place);
   float z = dot(p, forward);
-  // How far sideways the texels of a triangle of this vertex may look, at its greatest depth.
+  // The texels of a triangle of this vertex may look so far sideways, at its greatest depth.
   float slope = vertexPosition.w;
   float sideways = 1.25 * (texelReach * (max(z, 0.0) + 2.0 * limits.w * sqrt(1.0 + slope * slope)));
   if (sideways > limits.x) {

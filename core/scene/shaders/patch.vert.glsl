@@ -30,7 +30,7 @@ void main() {
   vec3 p = relativePosition(vertexPosition, slot);
   relative = p;
   upward = vertexNormal;
-  // Subtract whole numbers first: floats cannot tell the posts of a large terrain apart.
+  // Subtract whole numbers first: floats cannot distinguish the posts of a large terrain.
   post = vec2(square - eyePost) + vertexPost;
   ground = groundMetres(vertexPosition, slot);
 #ifdef TINTED

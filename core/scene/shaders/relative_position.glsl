@@ -10,7 +10,7 @@ vec3 relativePosition(vec3 inTile, ivec4 slot) {
   return p;
 }
 
-// Metres east and north, modulo 8192 from tile to tile: where the ground's noise is.
+// Returns metres east and north, modulo 8192 from tile to tile: where the ground's noise is.
 vec2 groundMetres(vec3 inTile, ivec4 slot) {
   return inTile.xy + vec2(slot.xy & 511) * 16.0;
 }

@@ -23,7 +23,7 @@ class BoxLids {
     constexpr float kRounding = 0.1f;
     const float x = static_cast<float>(box.maxX - middle.x) + kRounding,
                 y = static_cast<float>(box.maxY - middle.y) + kRounding;
-    // No row or column of posts that the step divides crosses it: it has no lines that might hide.
+    // A box that no row or column of posts divisible by the step crosses has no lines that might hide.
     constexpr int kStep = 4;
     const std::array<ReliefVertex, 4> corners{{{-x, -y, kRounding, 1, 1},
                                                {x, -y, kRounding, 2, 1},

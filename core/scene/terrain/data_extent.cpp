@@ -10,8 +10,8 @@ namespace {
 constexpr double kEarthRadius = 6.37e6;
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// Whether every straight line from a place to one on a parallel of latitude, at most `away` degrees of
-/// longitude off, comes to it from the equator's side. North is where that parallel is.
+/// Reports whether every straight line from a place to one on a parallel of latitude, at most `away` degrees
+/// of longitude off, comes to it from the equator's side. North is where that parallel is.
 ///
 /// Places of one latitude, at any height, make a cone about the earth's axis, and what is nearer the pole is
 /// inside of it. A line enters the cone where its eye is on the inner side of the plane that touches the cone
@@ -87,7 +87,7 @@ GeodeticPosition placeIn(const terrain::TerrainInfo& info, double east, double n
 bool liesOver(const terrain::TerrainInfo& info, const GeodeticPosition& place) {
   double east = std::fmod((place.longitude - info.southWest.longitude).value(), 360);
   if (east < 0) east += 360;
-  // Borders are told rounded: a place on the western one may be a little west of it.
+  // Borders are given rounded: a place on the western one may be a little west of it.
   constexpr double kRounding = 1e-9;
   return place.latitude >= info.southWest.latitude && place.latitude <= info.northEast.latitude &&
          (east <= widthOf(info).value() + kRounding || east >= 360 - kRounding);

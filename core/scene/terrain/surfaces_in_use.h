@@ -65,7 +65,7 @@ class SurfaceShare {
     left_ = most;
     lacksAny_ = lacksMany_ = false;
   }
-  /// Makes the surfaces that `nodes` lack, nearest first, and returns how many still lack one.
+  /// Makes the surfaces that `nodes` miss, nearest first, and returns how many still miss one.
   template <class Lacks, class Make>
   std::size_t makeNearest(std::span<const TileDraw> nodes, const std::vector<Box>& bounds, Vec3 eye,
                           const Lacks& lacks, const Make& make) {

@@ -17,7 +17,7 @@
 namespace trimtab::scene {
 namespace {
 
-/// As strong as an overlay's colours are over the land's.
+/// Returns a colour as strong as an overlay's colours are over the land's.
 std::uint32_t tint(std::array<std::uint8_t, 3> c) {
   return c[0] | static_cast<std::uint32_t>(c[1]) << 8 | static_cast<std::uint32_t>(c[2]) << 16 | 150u << 24;
 }

@@ -21,7 +21,7 @@ namespace trimtab::scene {
 
 class OcclusionStage;
 
-/// What a drawer reads of the frame that is being made.
+/// Holds what a drawer reads of the frame that is being made.
 struct FrameInProgress {
   const FrameRequest& request;
   EyePose eye;  ///< in the terrain's frame
@@ -31,7 +31,7 @@ struct FrameInProgress {
   bool software;  ///< GL is this processor
 };
 
-/// What preparing a terrain for one frame found, for the renderer to merge.
+/// Holds what preparing a terrain for one frame found, for the renderer to merge.
 struct PreparedTerrain {
   OcclusionResult occlusion;
   PagingFrame paging;

@@ -14,7 +14,7 @@ namespace trimtab::terrain {
 std::string arithmeticOfThisMachine() {
   static const std::string sum = [] {
     std::vector<double> all;
-    // From where the builders ask: angles, shares of one, distances in metres and their squares.
+    // The numbers are where the builders ask: angles, shares of one, distances in metres and their squares.
     constexpr int kNumbers = 4096;
     double share = 0.5;
     for (int i = 0; i < kNumbers; ++i) {

@@ -36,7 +36,7 @@ Finding refused(const fs::path& where, std::string expected, std::string found) 
   return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
 }
 
-/// What is thrown for want of memory or threads, as a finding: what is done by then stays done.
+/// Returns as a finding what is thrown for want of memory or threads: what is done by then stays done.
 template <class Work>
 auto orFinding(const fs::path& where, const Work& work) -> decltype(work()) {
   try {
@@ -49,7 +49,7 @@ auto orFinding(const fs::path& where, const Work& work) -> decltype(work()) {
 /// Patches and ground are made at the same time where they may take so much, bytes.
 constexpr std::size_t kBesideBytes = std::size_t{512} << 20;
 
-/// An image over the colours of materials: those stay where it has nothing.
+/// Puts an image over the colours of materials: those stay where it has nothing.
 void drape(std::vector<std::uint8_t> image, std::vector<std::uint8_t>& under) {
   if (under.empty()) {
     under = std::move(image);
@@ -127,7 +127,7 @@ class Job {
                    "something else, left as it is");
   }
 
-  /// Everything up to the heights in their file.
+  /// Does everything up to the heights in their file.
   Result<Done> begin(WorkFolder::Use use) {
     if (options_.sources.empty()) return refused("bake", "at least one elevation file", "none");
     if (output_.empty()) return refused("bake", "an output folder", "none");
@@ -139,7 +139,7 @@ class Job {
     if (!work) return work.findings();
     keep(work.findings());
     work_ = std::move(work).value();
-    // Asked before other parts of the same bake come to write there.
+    // This is asked before other parts of the same bake come to write there.
     goesOn_ = work_->resumed() && !work_->journal().empty();
     scenery_ = std::any_of(options_.sources.begin(), options_.sources.end(), isScenery);
     auto source = readSource(options_, memory_, stage(0, scenery_ ? 0.1 : 0.2));
@@ -206,7 +206,7 @@ class Job {
     return Done{};
   }
 
-  /// Asked after whatever reads heights: what could not be read is 0 m there.
+  /// Call it after whatever reads heights: what could not be read is 0 m there.
   Result<Done> allRead() const {
     if (file_->failed()) return unreadable((work_->database() / kHeightsName).string());
     return Done{};
@@ -221,7 +221,7 @@ class Job {
     const Progress ground = stage(scenery_ ? 0.2 : 0.7, scenery_ ? 0.25 : 0.9);
     std::atomic<bool> stop{false}, failed{false};
     std::atomic<double> share{0};
-    // Only this thread tells of progress.
+    // Only this thread reports progress.
     const Progress other = [&](double done, const std::string& what) {
       share = done;
       return beside ? !stop : ground(done, what);
@@ -402,7 +402,7 @@ class Job {
         !written)
       return written;
     if (!stage(0.99, 1)(1, "writing")) return cancelled(output_.string());
-    // What is there is not given up for one that cannot be opened.
+    // An existing database is not given up for one that cannot be opened.
     if (auto opened = Database::open(work_->database()); !opened) {
       Findings why = opened.findings();
       why.push_back({Severity::error, output_.string(), "",

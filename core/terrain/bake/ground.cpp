@@ -67,7 +67,7 @@ Result<Done> GroundBake::join(std::uint32_t parts, const fs::path& file, const P
   }
   Findings notes;
   const auto keep = [&notes](const Findings& more) { notes.insert(notes.end(), more.begin(), more.end()); };
-  // What they showed is in the shares: one that cannot be read by now is not asked for.
+  // What the images showed is in the shares: one that cannot be read by now is not asked for.
   for (const fs::path& image : sources_.images)
     if (const auto opened = GroundImage::open(image)) keep(opened.findings());
   keep(aboutCover(sources_.images, all));

@@ -71,7 +71,7 @@ std::string describe(const PostGrid& posts) {
   return "posts " + bits(posts.west) + " " + bits(posts.south) + " " + bits(posts.stepLongitude) + " " +
          bits(posts.stepLatitude) + " " + std::to_string(posts.columns) + " " + std::to_string(posts.rows);
 }
-/// What follows "posts" in such a line.
+/// Reads what follows "posts" in such a line.
 PostGrid postsOf(std::istream& words) {
   PostGrid posts;
   for (double* value : {&posts.west, &posts.south, &posts.stepLongitude, &posts.stepLatitude}) {
@@ -110,7 +110,7 @@ class HeightsBake {
     baked_.posts = posts_;
     readJournal();
     if (done_ && isAsNoted()) return baked_;
-    // What was written is not always on the disk after a power cut: only what agrees with its sums stays.
+    // Not all that was written is on the disk after a power cut: only bands that agree with their sums stay.
     if (auto read = readBands(); !read) return read.findings();
     if (auto filled = fill(); !filled) return filled.findings();
     if (auto summed = sumUp(); !summed) return summed.findings();
@@ -123,7 +123,7 @@ class HeightsBake {
     return Done{};
   }
 
-  /// What an earlier bake of the same did, as far as the file bears it out.
+  /// Reads what an earlier bake of the same grid did, as far as the file agrees.
   void readJournal() {
     const std::string posts = describe(posts_);
     bool ours = false;
@@ -270,7 +270,7 @@ class HeightsBake {
     return Done{};
   }
 
-  /// Sums of the finished rows, and the lowest and highest.
+  /// Returns the sums of the finished rows, and finds the lowest and highest.
   Result<std::vector<std::uint64_t>> sums() {
     CheckedRows::Sums all(rowBytes_);
     baked_.lowest = std::numeric_limits<float>::infinity();

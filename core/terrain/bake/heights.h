@@ -16,7 +16,7 @@ namespace trimtab::terrain {
 /// File of the work folder: one bit per post, set where a void was filled.
 inline constexpr const char* kVoidsName = "voids.bits";
 
-/// What a bake knows about its heights once they are in their file.
+/// Holds what a bake knows about its heights once they are in their file.
 struct BakedHeights {
   PostGrid posts;
   float lowest = 0, highest = 0;
@@ -30,7 +30,8 @@ struct BakedHeights {
 Result<BakedHeights> bakeHeights(const WorkFolder& work, ElevationSource& source, std::size_t memory,
                                  const Progress& progress);
 
-/// Describes finished work that was made for a different grid: which grid, and which parts. Empty if none is.
+/// Describes finished work that was made for a different grid: which grid, and which parts. It is empty if
+/// none is.
 std::string workForOtherPosts(const WorkFolder& work, const PostGrid& posts);
 /// Describes a grid's size, place and post spacing in words.
 std::string inWords(const PostGrid& posts);

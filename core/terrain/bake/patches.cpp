@@ -25,7 +25,7 @@ constexpr std::uint64_t kMeasuredKey = std::uint64_t{1} << 32;
 /// A page's buffers while it is built: heights of its rectangle and its meshes, several times.
 constexpr std::size_t kBytesAPage = std::size_t{96} << 20;
 
-/// What a piece keeps of its patches until all are there.
+/// Holds what a piece keeps of its patches until all are there.
 struct Measured {
   std::vector<Box> bounds;
   VariantTable<float> errorM;
@@ -202,7 +202,7 @@ Result<Done> PatchBake::make(const HeightSource& heights, std::uint32_t part, st
       workers.emplace_back(build);
     }
   } catch (const std::system_error& thrown) {
-    // Fewer threads do it too.
+    // Fewer threads can do it too.
     const std::lock_guard lock(mutex);
     --working;
     if (workers.empty()) findings.push_back(wrong(work_.pieces(), "a thread for " + what, thrown.what()));

@@ -34,7 +34,7 @@ Finding wrong(const fs::path& where, std::string expected, std::string found) {
   return {Severity::error, where.string(), "", std::move(expected), std::move(found)};
 }
 
-/// Empty if it cannot be read; a pipe of its name is not waited for.
+/// Returns an empty text if the file cannot be read; a pipe of its name is not waited for.
 std::string textOf(const fs::path& file) {
   const Result<std::string> text = readWhole(file, kLargestRecording);
   return text ? *text : std::string();
@@ -45,7 +45,8 @@ std::string thisMachine() {
   return ::gethostname(name, sizeof name - 1) == 0 && name[0] != 0 ? name : "localhost";
 }
 
-/// Whether a process of this machine lives and is what it said: a number is given to others later on.
+/// Reports whether a process of this machine lives and runs this program: its number may be given to others
+/// later on.
 bool livesAs(pid_t process, const std::string& program) {
   if (::kill(process, 0) != 0 && errno == ESRCH) return false;
   constexpr std::size_t kMostOfName = 15;  // that the system keeps
@@ -54,7 +55,7 @@ bool livesAs(pid_t process, const std::string& program) {
   return !std::getline(name, is) || is == program.substr(0, kMostOfName);
 }
 
-/// The other processes that have a lock, by what they wrote there; of this machine, those that live.
+/// Returns the other processes that have a lock, by what they wrote there; of this machine, those that live.
 std::string holdersOf(const fs::path& file) {
   std::set<std::string> holders;
   std::istringstream lines(textOf(file));
@@ -90,7 +91,7 @@ Finding otherArithmetic(const fs::path& path) {
                "those of another machine, left as they are: bake all parts on machines alike");
 }
 
-/// Whether a bake makes this in its work folder.
+/// Reports whether a bake makes this in its work folder.
 bool isOfABake(const fs::path& inFolder) {
   constexpr std::array<std::string_view, 6> kFiles = {"lock",         "heights.lock", "recipe.json",
                                                       "recipe.spent", "journal",      kVoidsName};
@@ -103,7 +104,7 @@ bool isOfABake(const fs::path& inFolder) {
 
 Result<Done> empty(const fs::path& folder, const std::set<std::string>& but) {
   std::error_code error;
-  // What says that the rest is good goes first.
+  // The file that says that the rest is good goes first.
   fs::remove(folder / "recipe.json", error);
   return removeOwn(folder, isOfABake, but);
 }
@@ -142,7 +143,7 @@ std::unique_ptr<FileLock> FileLock::tryLock(const fs::path& file, bool shared) {
   }, there{};
   int refused =
       ::flock(handle, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 || ::fstat(handle, &held) != 0 ? errno : 0;
-  // Whoever had it before may have removed the folder with it.
+  // The process that had the lock before may have removed the folder with it.
   if (refused == 0 &&
       (::stat(file.c_str(), &there) != 0 || held.st_ino != there.st_ino || held.st_dev != there.st_dev))
     refused = EWOULDBLOCK;
@@ -151,7 +152,7 @@ std::unique_ptr<FileLock> FileLock::tryLock(const fs::path& file, bool shared) {
     errno = refused;
     return {};
   }
-  // For whoever is refused; without room for it the lock holds all the same.
+  // The line is for whoever is refused; without room for it the lock holds all the same.
   const std::string line =
       std::to_string(::getpid()) + ' ' + thisMachine() + ' ' + ::program_invocation_short_name + '\n';
   const bool told = (shared || ::ftruncate(handle, 0) == 0) && ::write(handle, line.data(), line.size()) > 0;
@@ -188,7 +189,7 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
   // Parts that begin at once take turns to look at the folder.
   for (int turn = 0; turn < 100; ++turn) {
     std::error_code error;
-    // Another process may be about to mark it, or have it gone again for a moment.
+    // Another process may be about to mark it, or have removed it again for a moment.
     if (auto made = makeMarked(path); !made) {
       if (turn >= 5) return made.findings();
       std::this_thread::sleep_for(kTurn);
@@ -203,7 +204,7 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
         return wrong(path, "parts of the same sources, options and version of this program",
                      "those of others, left as they are");
       if (!same) {
-        // Killed between its last two steps, a bake left the old database here.
+        // A bake killed between its last two steps left the old database here.
         if (fs::exists(path / "old", error) && !fs::exists(output, error))
           fs::rename(path / "old", output, error);
         if (error) return wrong(path / "old", "a database that can go back to its place", error.message());
@@ -240,7 +241,7 @@ WorkFolder::~WorkFolder() {
 
 Result<Done> WorkFolder::beginAnew() {
   const std::string recipe = textOf(path_ / "recipe.json");
-  // What was the output before, where it could not go back, is none of this work.
+  // The database that was the output before, and could not go back there, is not part of this work.
   const auto emptied = empty(path_, {"lock", "heights.lock", "old"});
   if (!emptied) return emptied;
   if (auto made = makeFolders(path_); !made) return made;
@@ -298,7 +299,7 @@ Result<Done> WorkFolder::finish(const fs::path& output) {
   if (error) return wrong(database(), "a folder that can be read", error.message());
   if (auto done = reachDisk(database()); !done) return done;
   const fs::path recipe = path_ / "recipe.json", spent = path_ / "recipe.spent";
-  // Killed after this, the next bake begins anew; it must not take the old database for its own.
+  // If killed after this, the next bake begins anew; it must not mistake the old database for its own.
   fs::rename(recipe, spent, error);
   if (error) return wrong(recipe, "a file that can be renamed", error.message());
   const fs::path made = database(), old = path_ / "old";

@@ -127,7 +127,7 @@ Result<Done> ElevationFile::lookThrough(const Progress& progress, Findings& note
       if (progress && !progress(static_cast<double>(r) / static_cast<double>(down_), what))
         return cancelled(name_);
       const std::int64_t w = std::min(columns, across_ - c), h = std::min(rows, down_ - r);
-      // What a sparse file leaves out need not be looked at.
+      // Posts that a sparse file leaves out need not be looked at.
       const int there =
           band.GetDataCoverageStatus(static_cast<int>(c), static_cast<int>(r), static_cast<int>(w),
                                      static_cast<int>(h), GDAL_DATA_COVERAGE_STATUS_DATA, nullptr);
@@ -226,7 +226,7 @@ Result<Done> ElevationFile::readTile(const Rectangle& posts, std::uint32_t first
   const auto [column, columns] = bounds(west - marginX, east + marginX, across_);
   const auto [row, rows] = bounds(low - marginY, high + marginY, down_);
   if (columns * rows > kWindow && (posts.columns > 1 || posts.rows > 1)) {
-    // Too much of the raster at once: in halves.
+    // The raster is too much at once, so it is read in halves.
     Rectangle one = posts, two = posts;
     if (posts.columns >= posts.rows) {
       one.columns = posts.columns / 2;

@@ -23,8 +23,8 @@ struct Continued {
 /// Heights of one file, resampled at the posts of another grid.
 class ElevationFile {
  public:
-  /// Where a post lies in the raster, in the raster's posts, and the offset of its vertical datum, metres. A
-  /// coordinate or offset that PROJ cannot compute is NaN.
+  /// Says where a post lies in the raster, in the raster's posts, and the offset of its vertical datum,
+  /// metres. A coordinate or offset that PROJ cannot compute is NaN.
   struct Place {
     double x = 0, y = 0, lift = 0;
   };

@@ -99,7 +99,7 @@ std::optional<PostGrid> geographicPosts(const PlacedRaster& raster) {
 
 namespace {
 
-/// On the sphere, in a way that is good near the poles too.
+/// Returns the angle on the sphere, in a way that is good near the poles too.
 double degreesApart(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   constexpr double kDegree = std::numbers::pi / 180;
   const double north = std::sin((b[1] - a[1]) * kDegree / 2), east = std::sin((b[0] - a[0]) * kDegree / 2);
@@ -116,7 +116,7 @@ int poleIn(const PlacedRaster& raster) {
   if (!transform || raster.crs.IsGeographic() || !GDALInvGeoTransform(forward.data(), inverse.data()))
     return 0;
   for (const int pole : {1, -1}) {
-    // Only where the pole is a point, and not the edge of a cylinder.
+    // A pole counts only where it is a point, and not the edge of a cylinder.
     std::array<double, 2> x{0, 90}, y{90.0 * pole, 90.0 * pole};
     if (!transform->Transform(2, x.data(), y.data()) || std::hypot(x[1] - x[0], y[1] - y[0]) > 1) continue;
     const double column = inverse[0] + inverse[1] * x[0] + inverse[2] * y[0],
@@ -167,7 +167,7 @@ std::optional<PostGrid> fittingPosts(const PlacedRaster& raster) {
   PostGrid posts;
   posts.stepLatitude = step;
   if (pole != 0) {
-    // All the way round, at the spacing of its farthest corner; a row stands on the pole itself.
+    // Goes all the way round, at the spacing of its farthest corner; a row is on the pole itself.
     const double reach = pole > 0 ? 90 - south : 90 + north;
     const double around = std::max(8.0, std::ceil(360 * std::sin(reach * std::numbers::pi / 180) / step));
     posts.stepLongitude = 360 / around;
@@ -285,7 +285,7 @@ Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, Raster
       return about(Severity::error, file, "georeference", "finite numbers", "not a number");
   if (const OGRSpatialReference* crs = opened.data->GetSpatialRef(); crs != nullptr && !crs->IsLocal()) {
     opened.crs = *crs;
-    // What heights are above is another matter than where they are.
+    // What heights are measured from is another matter than where they are.
     if (opened.crs.IsCompound()) opened.crs.StripVertical();
     if (opened.crs.GetAxesCount() == 3) opened.crs.DemoteTo2D(nullptr);
     opened.crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);

@@ -21,8 +21,8 @@ std::vector<const ElevationLayer*> layersOf(const ElevationChunk* chunk, std::si
   return layers;
 }
 
-/// How far it is from each post of a layer, up or down its column, to where the layer has nothing and another
-/// file has: kChunkRows rows of the layer's columns and one on either side.
+/// Returns how far it is from each post of a layer, up or down its column, to where the layer has nothing and
+/// another file has: kChunkRows rows of the layer's columns and one on either side.
 std::vector<std::uint8_t> upAndDown(const std::array<const ElevationChunk*, 3>& chunks,
                                     const ElevationLayer& layer, std::uint32_t first, std::uint32_t count) {
   std::vector<std::uint8_t> far(std::size_t{kChunkRows} * count, kFar);
@@ -51,7 +51,7 @@ std::vector<std::uint8_t> upAndDown(const std::array<const ElevationChunk*, 3>& 
   return far;
 }
 
-/// 0 at the border, 1 from kGiveWay posts on.
+/// Returns 0 at the border, and 1 from kGiveWay posts on.
 float say(std::span<const std::uint8_t> row, std::uint32_t column) {
   int best = int{kFar} * kFar;
   for (int d = 0; d * d < best; ++d) {
@@ -66,7 +66,8 @@ float say(std::span<const std::uint8_t> row, std::uint32_t column) {
   return t >= 1 ? 1.0f : t * t * (3 - 2 * t);
 }
 
-/// Where several files have a height: each takes its part of what those with more say leave.
+/// Holds the shares of several files that have a height: each gets its part of what those with more say
+/// leave.
 struct Shares {
   std::vector<float> left, taken, most;
   std::vector<std::size_t> leader;

@@ -14,7 +14,7 @@ inline constexpr std::uint32_t kChunkRows = 32;
 inline constexpr std::uint32_t kGiveWay = 32;
 static_assert(kGiveWay <= kChunkRows);
 
-/// What one file has in a chunk.
+/// Holds what one file has in a chunk.
 struct ElevationLayer {
   std::size_t file = 0;  ///< index; a lower one has precedence
   std::size_t name = 0;  ///< equal for a file and its copy a turn of the earth away: they have no border

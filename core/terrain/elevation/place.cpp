@@ -4,7 +4,7 @@
 
 #include "file.h"
 
-/// Where posts of a grid lie in a file's raster.
+/// Finds where posts of a grid lie in a file's raster.
 namespace trimtab::terrain {
 
 namespace {
@@ -95,8 +95,8 @@ std::vector<ElevationFile::Place> ElevationFile::exact(std::uint32_t row, std::u
   return places;
 }
 
-/// The widest stride of exact places whose bilinear reading is good to 1/500 of the raster's posts wherever
-/// it is tried.
+/// Returns the widest stride of exact places whose bilinear reading is good to 1/500 of the raster's posts
+/// wherever it is tried.
 std::uint32_t ElevationFile::lattice() const {
   constexpr std::uint32_t kTries = 12;
   const auto reachesPole = [&](std::uint32_t stride) {

@@ -18,7 +18,7 @@ struct Axis {
   std::array<double, 4> weight{};
 };
 
-/// Not so for what is no number.
+/// Returns false for what is not a number.
 bool isWithinAPost(double x, std::int64_t count) {
   return x >= -1 && x <= static_cast<double>(count);
 }
@@ -36,7 +36,7 @@ Axis axisAt(double x, std::int64_t count) {
   return axis;
 }
 
-/// Four values by their weights; the outer two, where they are missing, from the inner two.
+/// Mixes four values by their weights; the outer two, where they are missing, from the inner two.
 double mixed(const std::array<double, 4>& v, const std::array<double, 4>& weight) {
   double sum = 0;
   for (const std::size_t k : {1u, 2u})

@@ -32,8 +32,8 @@ class PostMean {
   std::int64_t heights_ = 0, posts_ = 0;
 };
 
-/// Mean of the window's posts within `width` x `height` posts about (x, y); NaN where most are voids, or none
-/// is there.
+/// Returns the mean of the window's posts within `width` x `height` posts about (x, y); NaN where most are
+/// voids, or none is there.
 float meanAbout(const RasterWindow& window, double x, double y, double width, double height);
 
 /// Across: means of the rows' posts within `size` posts about x, cubic along y as heightBetween is. Not

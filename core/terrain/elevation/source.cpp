@@ -50,7 +50,7 @@ bool isMoreThanATurn(const std::pair<double, double>& westAndEast) {
   return westAndEast.second - westAndEast.first > 360 + 1e-6;
 }
 
-/// All files on one side of the earth: what is west of the widest gap between them goes on after it.
+/// Turns all files to one side of the earth: what is west of the widest gap between them continues after it.
 void turnTogether(Files& files) {
   // One that goes all round stays as it is, and so does the first where none does.
   const auto round = std::find_if(files.begin(), files.end(), [](const auto& file) {
@@ -99,7 +99,7 @@ Lattice latticeOf(const Files& files, Step step, From from) {
   return {step(finest->posts()), from(finest->posts())};
 }
 
-/// From the first post of the lattice that is not before `low` to the last not beyond `high`.
+/// Returns the first post of the lattice that is not before `low`, and the last that is not beyond `high`.
 std::pair<double, double> fit(Lattice& lattice, double low, double high) {
   const double first = std::ceil((low - lattice.from) / lattice.step - 1e-3);
   lattice.from += first * lattice.step;
@@ -139,8 +139,8 @@ Result<PostGrid> gridOf(const Files& files, const ElevationOptions& options) {
   return upToPoles(grid);
 }
 
-/// Where files go on beyond a grid round the earth: each turned as well, where it meets the grid's other end,
-/// and how many columns are to be merged beyond either end, so that both give the same.
+/// Adds files that continue beyond a grid round the earth once more, turned, where they meet the grid's other
+/// end. Returns how many columns are to be merged beyond either end, so that both give the same.
 std::uint32_t turnRound(Files& files, const PostGrid& grid) {
   if (!isMoreThanATurn(westAndEast(files))) return 0;
   Files all;
@@ -201,7 +201,8 @@ class MergedElevation final : public ElevationSource {
               [](std::uint8_t reached) { return reached == 0 ? std::uint8_t{1} : std::uint8_t{0}; });
       }
       row += count;
-      // With its last row, so that who goes on within a chunk counts it as one who began with it does.
+      // The count includes the last row, so that whoever goes on within a chunk counts it as one who began
+      // with it does.
       if (row % kChunkRows == 0 || row == grid_.rows) countGiven(index);
     }
     return Done{};

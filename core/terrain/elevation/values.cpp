@@ -14,7 +14,7 @@ namespace {
 
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 
-/// Metres a unit of the band.
+/// Returns the metres per unit of the band.
 std::optional<double> verticalUnit(const std::string& name) {
   static const std::map<std::string, double> kUnits = {{"ft", 0.3048},
                                                        {"foot", 0.3048},
@@ -49,7 +49,7 @@ bool isDeep(float metres) {
 bool isPossible(float metres) {
   return metres >= -11500 && metres <= 9500;
 }
-/// So far from any height that it stands for none.
+/// Reports whether a number is so far from any height that it means none.
 bool isAbsurd(float metres) {
   return !(metres > -15000 && metres < 40000);
 }

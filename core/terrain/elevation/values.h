@@ -62,8 +62,8 @@ class Census {
 /// Converts numbers to metres, and voids to NaN, in place.
 void toMetres(std::span<float> raw, const Values& values);
 
-/// How a file's heights are converted to heights above the EGM96 geoid. Files without a vertical datum are
-/// assumed to have such heights already.
+/// Says how a file's heights are converted to heights above the EGM96 geoid. Files without a vertical datum
+/// are assumed to have such heights already.
 struct Vertical {
   double unit = 1;  ///< metres a unit of the vertical CRS
   /// Transforms from EGM96 to the file's datum; null if no conversion is needed, or none is possible.

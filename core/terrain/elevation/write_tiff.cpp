@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kTile = 256;
 
-/// What a raster to be written is like.
+/// Describes a raster to be written.
 struct Shape {
   int width = 0, height = 0, bands = 1;
   GDALDataType type = GDT_Float32;
@@ -73,7 +73,7 @@ Result<Done> write(const fs::path& tif, const Shape& shape, const std::array<dou
       if (errors.any()) return failed("GDAL gives no reason");
     }
   }
-  // What was buffered, and the table of tiles, is only written when the dataset closes.
+  // Buffered tiles, and the table of tiles, are only written when the dataset closes.
   if (errors.any()) return failed("GDAL gives no reason");
   if (auto done = unfinished->putInPlace(); !done) return done;
   return {Done{}, unfinished.findings()};

@@ -79,7 +79,7 @@ class ThreadedPager final : public Pager {
     std::unique_lock lock(mutex_);
     urgent_.assign(pages.begin(), pages.end());
     work_.notify_all();
-    // Who waits may as well read.
+    // A thread that waits may as well read.
     while (const auto page = nextUrgent()) read(*page, lock);
     done_.wait(lock, [&] {
       return std::none_of(pages.begin(), pages.end(),

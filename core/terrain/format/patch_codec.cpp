@@ -73,7 +73,7 @@ int steepness(std::int8_t x, std::int8_t y) {
   return static_cast<int>(std::lround(std::sqrt(std::max(0, 127 * 127 - x * x - y * y))));
 }
 
-/// The height whose place is the vertex's, or comes nearest, and that place.
+/// Returns the height whose place is the vertex's, or comes nearest, and that place.
 std::pair<std::int32_t, Place> heightOf(const PostGeometry& geometry, std::uint32_t row, std::uint32_t column,
                                         const Place& place) {
   const PostGeometry::Lattice ground = geometry.lattice(row, column, 0);
@@ -100,7 +100,7 @@ void append(std::vector<std::byte>& bytes, const T* data, std::size_t count) {
   bytes.insert(bytes.end(), from, from + count * sizeof(T));
 }
 
-/// So many values of `each` bytes.
+/// Appends so many values of `each` bytes.
 std::uint32_t appendPacked(std::vector<std::byte>& bytes, const void* values, std::size_t count,
                            std::size_t each) {
   if (count == 0) return 0;
@@ -142,9 +142,9 @@ class HeirWriter {
 class HeirReader {
  public:
   explicit HeirReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  /// None beyond the end.
+  /// Returns none beyond the end.
   Heir next() { return bit() ? Heir::same : bit() ? Heir::other : Heir::none; }
-  /// Whether as much was read as there is, to the byte.
+  /// Reports whether all bytes were read.
   bool isAtEnd() const { return (next_ + 7) / 8 == bytes_.size(); }
 
  private:
@@ -181,14 +181,14 @@ void split(const PatchMesh& mesh, std::size_t variants, std::vector<std::uint16_
   }
 }
 
-/// Where each of so many vertices goes to, counted from `first`: by first use. `indices` gets the packed
-/// ones.
+/// Returns where each of so many vertices goes to, counted from `first`: in the order of first use. `indices`
+/// gets the packed ones.
 void reorder(std::span<const std::uint16_t> packed, std::size_t vertices, std::uint32_t first,
              std::vector<std::uint32_t>& indices, std::vector<std::uint32_t>& goesTo) {
   goesTo.assign(vertices, PatchIndex::kNone);
   std::uint32_t next = first;
   const auto place = [&](std::uint32_t& to) {
-    // Whether a vertex is a new one cannot be guessed: without a branch.
+    // The branch would be mispredicted, because a new vertex cannot be guessed: so there is none.
     const bool fresh = to == PatchIndex::kNone;
     to = fresh ? next : to;
     next += fresh ? 1 : 0;
@@ -299,8 +299,8 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
                              header.indexBytes + std::uint64_t{header.exceptions} * sizeof(Exception) +
                              header.heirBytes;
   if (size != bytes.size()) return wrong("size", number(size) + " bytes", number(bytes.size()) + " bytes");
-  // Before anything is allocated by what it claims: sixteen packed vertices take three bytes or more, a
-  // triangle one.
+  // These checks come before anything is allocated by what the header claims: sixteen packed vertices need
+  // three bytes or more, a triangle one.
   if (header.postShift > 15 || header.vertices / 8 > header.vertexBytes || header.indices % 3 != 0 ||
       header.indices / 3 > header.indexBytes)
     return wrong("counts", "no more vertices and triangles than its bytes can hold",

@@ -76,7 +76,8 @@ std::array<Corner, 3> corners(const PatchIndex& index, const PatchPlace& place) 
   }
 }
 
-/// Whether floats in 1/256 m reach all of a square from its middle, whichever way it is turned in the frame.
+/// Reports whether floats in 1/256 m reach all of a square from its middle, whichever way it is turned in the
+/// frame.
 bool reaches(const PostGrid& posts, const PostGeometry& geometry, std::uint32_t column, std::uint32_t row,
              std::uint32_t cells) {
   constexpr std::uint32_t kSamples = 4;  // a side: the ground between bends by metres
@@ -288,7 +289,7 @@ PatchIndex makePatchIndex(const PostGrid& posts, const PostGeometry& geometry, s
         page.patches = static_cast<std::uint32_t>(index.depth.size()) - page.firstPatch;
         index.pages.push_back(page);
       }
-    // Both depths of a pair in turn: parents before children.
+    // Both depths of a pair are made in turn: parents before children.
     makeDiamonds(first, all, 0);
     makeDiamonds(first, all, 1);
     before.swap(now);

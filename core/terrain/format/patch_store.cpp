@@ -24,7 +24,7 @@ constexpr std::uint64_t kIndexKey = std::uint64_t{1} << 32, kFactsKey = kIndexKe
 /// This version counts the forms of what the index and the pages store of a patch.
 constexpr std::uint64_t kVersion = 5;
 
-/// What a file of patches was made for.
+/// Says what a file of patches was made for.
 struct GridHeader {
   std::uint64_t version = kVersion;
   PostGrid posts;
@@ -42,8 +42,9 @@ bool isSound(const Box& b, std::span<const float> errorM) {
   return true;
 }
 
-/// No grid has fewer: halves of the smallest squares that lie wholly in it, quarters of those twice as wide.
-/// Told at once, so that a header that lies does not cost the index of another size.
+/// Returns a number of patches that no grid is below: halves of the smallest squares that lie wholly in it,
+/// quarters of those twice as wide. It is known at once, so that a header that lies does not cost the index
+/// of another size.
 std::uint64_t leastPatches(const PostGrid& posts, std::uint32_t leafCells) {
   const auto squares = [&](std::uint32_t cells) {
     return std::uint64_t{(posts.columns - 1) / cells} * ((posts.rows - 1) / cells);

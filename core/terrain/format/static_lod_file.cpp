@@ -76,7 +76,7 @@ class Reader {
     value.assign(bytes_.data() + at_, count);
     at_ += count;
   }
-  /// How many things of at least `each` bytes follow; never more than the file can hold.
+  /// Reads how many things of at least `each` bytes follow; never more than the file can hold.
   std::uint64_t length(std::size_t each) {
     std::uint64_t count = 0;
     number(count);
@@ -191,7 +191,7 @@ bool allFinite(const std::vector<float>& values, std::size_t count) {
   return true;
 }
 
-/// What a reader of the arrays may rely on; the first thing that does not hold, or nothing.
+/// Returns the first thing that keeps a reader from relying on the arrays, or nothing.
 std::string faultOf(const StaticLodTerrain& terrain) {
   const StaticLodIndex& index = terrain.index;
   const std::size_t nodes = index.size();
@@ -250,7 +250,7 @@ std::string faultOf(const StaticLodTerrain& terrain) {
 
 Result<Done> writeStaticLod(const fs::path& file, const StaticLodTerrain& terrain) {
   Writer body;
-  // In front of the body in one piece, so that there is no second copy of it.
+  // The header is put in front of the body in one piece, so that there is no second copy of it.
   body.bytes.assign(kHeaderBytes, '\0');
   const bool textured = isTextured(terrain);
   write(body, terrain, textured);

@@ -69,7 +69,7 @@ SceneryCounts sceneryOf(const Json& json, const Reader& read) {
   return counts;
 }
 
-/// The trees, if they are those of this manifest's terrain.
+/// Reads the trees, if they are those of this manifest's terrain.
 std::shared_ptr<const StaticLodTerrain> readTrees(const fs::path& file, const Json& json,
                                                   const PostGrid& posts, Findings& findings) {
   const auto trees = withinMemory(file, [&] { return readStaticLod(file); });
@@ -245,7 +245,7 @@ Result<Contents> readContents(const fs::path& folder) {
                    for (std::size_t i = 0; i < count; ++i) inside += h[i] >= lowest && h[i] <= highest;
                    return inside == count;
                  });
-  // Before anything else is allocated by what the manifest claims.
+  // This comes before anything else is allocated by what the manifest claims.
   if (!contents.heights) return files.findings;
   // A bake that was given too little memory for them left the tiles out.
   if (old ||

@@ -40,7 +40,7 @@ class TiledDatabase final : public Database {
  private:
   using Rows = CheckedRows::Reader;
   Findings rowDamage() const;
-  /// The lowest of all where the file is damaged.
+  /// Returns the lowest of all heights where the file is damaged.
   double height(Rows& rows, std::uint32_t row, std::uint32_t column) const {
     const auto* heights = reinterpret_cast<const float*>(rows.row(row));
     return heights ? double{heights[column]} : contents_.info.lowest.value();

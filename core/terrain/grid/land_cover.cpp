@@ -36,7 +36,7 @@ double noise(std::uint32_t row, std::uint32_t column, std::uint32_t size) {
   return 2 * (south + (north - south) * v) - 1;
 }
 
-/// Height of lasting snow, metres: about 5,500 m in the subtropics, the sea at 75 degrees.
+/// Returns the height of lasting snow, metres: about 5,500 m in the subtropics, the sea at 75 degrees.
 double snowLine(double latitudeDeg) {
   const double t = std::clamp((std::abs(latitudeDeg) - 22) / 53, 0.0, 1.0);
   return 5500 * (1 - t) * (1 - 0.15 * t);

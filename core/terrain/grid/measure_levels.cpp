@@ -38,7 +38,7 @@ struct Measure {
                    bool southWestNorthEast) const;
 };
 
-/// The next float below or above a number of lattice steps in metres.
+/// Returns the next float below a number of lattice steps in metres; `above` does the same above it.
 float below(std::int64_t steps) {
   return std::nextafter(static_cast<float>(static_cast<double>(steps) / PostGeometry::kStepsPerMetre),
                         -std::numeric_limits<float>::max());
@@ -63,7 +63,7 @@ void Measure::bounds(std::uint32_t node) const {
                         above(high.x), above(high.y), above(high.z)};
 }
 
-/// Largest |post - triangle| over a cell's posts. The triangles are linear in column and row.
+/// Returns the largest |post - triangle| over a cell's posts. The triangles are linear in column and row.
 double Measure::cellError(std::uint32_t r0, std::uint32_t r1, std::uint32_t c0, std::uint32_t c1,
                           bool southWestNorthEast) const {
   const double sw = height(r0, c0), se = height(r0, c1), nw = height(r1, c0), ne = height(r1, c1);
@@ -174,8 +174,8 @@ void Measure::errorAndSlope(std::uint32_t node) const {
   index.errorM[node] = static_cast<float>((worst + astray * (1 + std::min(steepest, kCliff))) * (1 + 1e-6));
 }
 
-/// In the local frame. Slopes are by the compass at each place, their cone's axis by that in the tile's
-/// middle.
+/// Returns the cone in the local frame. Slopes are by the compass at each place, their cone's axis by that in
+/// the tile's middle.
 NormalCone Measure::coneOf(const SlopeCone& steep, const TilePosts& tile, double slack) const {
   const std::uint32_t firstRow = tile.row(0), lastRow = tile.row(kCells), firstColumn = tile.column(0),
                       lastColumn = tile.column(kCells);
@@ -246,7 +246,8 @@ bool measureLevels(const PostGrid& posts, std::span<const float> heights, const 
   const bool done = forEachParallel(
       static_cast<std::uint32_t>(index.size()),
       [&](std::uint32_t i) {
-        // From the coarsest: they take longest, so that no core is left with one at the end.
+        // The coarsest level comes first: its tiles cost the most time, so that no core is left with one at
+        // the end.
         const auto node = static_cast<std::uint32_t>(index.size()) - 1 - i;
         if (node < finest) measure.bounds(node);
         measure.errorAndSlope(node);

@@ -47,7 +47,7 @@ PostGeometry::PostGeometry(const PostGrid& posts)
     const double cells = static_cast<double>(std::uint64_t{TerrainIndex::kTileCells} << level);
     const double wide = std::min(cells, posts.columns - 1.0) * widest * stepLongitudeRad_;
     const double high = std::min(cells, posts.rows - 1.0) * kA * stepLatitudeRad_;
-    // Half of the tile from its middle, and 20 km for heights.
+    // The reach is half of the tile from its middle, and 20 km for heights.
     const double reach = std::hypot(wide, high) / 2 + 20000;
     std::uint8_t shift = 0;
     while (reach > kReachM * std::ldexp(1.0, shift)) ++shift;

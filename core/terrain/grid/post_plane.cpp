@@ -23,7 +23,7 @@ void PostPlane::row(std::uint32_t column, std::uint32_t row, std::uint32_t strid
       across_[i] = across(column + stride * static_cast<std::uint32_t>(i));
   }
   const PostGeometry::Row& r = geometry_.rows_[row];
-  // As `along`, to the bit: what is the same post is the same height.
+  // This computes as `along` does, to the bit: the same post has the same height.
   for (std::size_t i = 0; i < heights.size(); ++i)
     out[i] = static_cast<float>(along(r, heights[i], across_[i]));
 }

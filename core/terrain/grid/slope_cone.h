@@ -18,7 +18,8 @@ class SlopeCone {
     low_ = {std::min(low_[0], east), std::min(low_[1], north)};
     high_ = {std::max(high_[0], east), std::max(high_[1], north)};
   }
-  /// Both triangles of a cell. Heights: south-west, south-east, north-west, north-east.
+  /// Adds both triangles of a cell. `h` holds its heights: south-west, south-east, north-west, north-east.
+  /// Heights: south-west, south-east, north-west, north-east.
   void addCell(const std::array<double, 4>& h, double southM, double northM, double highM,
                bool southWestNorthEast) {
     const double south = (h[1] - h[0]) / southM, north = (h[3] - h[2]) / northM, west = (h[2] - h[0]) / highM,

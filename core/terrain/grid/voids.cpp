@@ -87,7 +87,7 @@ class Rows {
   int file_ = -1, failed_ = 0;
 };
 
-/// Half the size, again and again: means of the heights that are there.
+/// Describes a grid of half the size of the one before it, whose heights are means of those that are there.
 struct Level {
   std::uint32_t columns = 0, rows = 0;
   std::size_t first = 0;  ///< where its rows are kept
@@ -111,7 +111,7 @@ class Pyramid {
   }
   const Level& level(std::size_t l) const { return levels_[l]; }
   Rows& rows() { return *rows_; }
-  /// The first that has a height everywhere.
+  /// Returns the first level that has a height everywhere.
   std::size_t whole() const {
     std::size_t l = 0;
     while (l + 1 < levels_.size() && levels_[l].empty) ++l;
@@ -166,7 +166,7 @@ class Filling {
     while (next_ < row + 1 + (coarse_ ? kSweeps : 0) && next_ < rows_ + kSweeps) step();
     return slot(row).heights;
   }
-  /// Whether the row had voids; good for the last that was asked for.
+  /// Reports whether the row had voids; good for the last that was asked for.
   bool hadVoids(std::uint32_t row) { return !slot(row).voids.empty(); }
 
  private:
@@ -214,7 +214,7 @@ class Filling {
     const auto r = static_cast<std::uint32_t>(y);
     const std::uint32_t r1 = std::min(r + 1, rows - 1);
     const float v = y - static_cast<float>(r);
-    // Asked for even where nothing is missing: rows come in order.
+    // The row is asked for even where nothing is missing: rows come in order.
     coarse_->row(r1);
     if (in.voids.empty()) return;
     const std::span<const float> low = coarse_->row(r), high = coarse_->row(r1);

@@ -35,8 +35,8 @@ struct Blob {
   std::uint64_t key;
   std::vector<std::byte> bytes;
 };
-/// What makes the tiles of a block, by many threads at once. Tiles are counted in levels of at least a texel
-/// a post; those that are finer than wanted (`skipped` of them) are made and not kept.
+/// Makes the tiles of a block, by many threads at once. Tiles are counted in levels of at least a texel a
+/// post; those that are finer than wanted (`skipped` of them) are made and not kept.
 class Blocks {
  public:
   static Result<std::unique_ptr<Blocks>> make(const GroundSources& sources) {
@@ -58,7 +58,7 @@ class Blocks {
       blocks->images_.push_back(std::move(image).value());
     }
     double texels = sources.triangles == nullptr ? 1 : 2;
-    // A picture a little finer than the posts keeps their grid: up to half an octave is given away.
+    // An image a little finer than the posts keeps their grid: up to half an octave is given away.
     if (finest > 0)
       texels = std::clamp(std::exp2(std::round(std::log2(posts.stepLatitude / finest))), texels,
                           std::max(sources.mostTexelsPerPost, texels));
@@ -71,15 +71,15 @@ class Blocks {
   const std::vector<GroundShape::Level>& levels() const { return levels_; }
   std::uint32_t skipped() const { return skipped_; }
 
-  /// All blocks in the order of their tiles in a file.
+  /// Returns all blocks in the order of their tiles in a file.
   std::vector<Place> all() const {
     std::vector<Place> blocks;
     gather({static_cast<std::uint32_t>(levels_.size()) - 1, 0, 0}, blocks);
     return blocks;
   }
 
-  /// The place at or after `i` in this order where a share may end: no tile that is kept lies in two shares
-  /// whose children are not kept.
+  /// Returns the place at or after `i` in this order where a share may end: no tile that is kept lies in two
+  /// shares whose children are not kept.
   std::size_t boundary(std::span<const Place> places, std::size_t i) const {
     const std::uint32_t up = std::max(skipped_, blockLevel_) - blockLevel_;
     const auto together = [&](const Place& a, const Place& b) {
@@ -217,7 +217,7 @@ class Blocks {
     return made;
   }
 
-  /// Texels of a coarser tile that an image gave, and those past the border.
+  /// Returns which texels of a coarser tile an image gave, and those past the border.
   static std::vector<std::uint8_t> byImageOf(const Place& place, GroundTileSize size,
                                              const Colours& colours) {
     std::vector<std::uint8_t> covered(std::size_t{kTile} * kTile, 1);

@@ -59,7 +59,7 @@ std::vector<std::string> wordsFor(GDALDataset& data) {
   return words;
 }
 
-/// The bands that are wanted in order, nothing copied.
+/// Returns the bands that are wanted in order, nothing copied.
 Dataset inOrder(GDALDataset& data, std::vector<std::string> words) {
   words.insert(words.begin(), {"-of", "VRT"});
   std::vector<char*> list;
@@ -109,7 +109,7 @@ Outline outlineOf(const PlacedRaster& raster) {
     if (!transform || !transform->Transform(1, &at[0], &at[1]) || !std::isfinite(at[0]) ||
         !std::isfinite(at[1]))
       return false;
-    // Where the raster is in degrees only the datum has changed, so one across 180 continues.
+    // If the raster is in degrees, only the datum has changed, so one across 180 continues.
     if (geographic) at[0] = before + std::remainder(at[0] - before, 360.0);
     return true;
   };
@@ -122,7 +122,7 @@ Outline outlineOf(const PlacedRaster& raster) {
   const auto apart = [&](const std::array<double, 2>& a) {
     return std::hypot(std::remainder(a[0] - middle[0], 360.0) * cosine, a[1] - middle[1]);
   };
-  // A picture in degrees has its own step north; others are about as fine in all directions.
+  // An image in degrees has its own step north; others are about as fine in all directions.
   outline.step = geographic && g[4] == 0 ? std::abs(g[5]) : std::sqrt(apart(right) * apart(below));
   outline.west = outline.east = middle[0];
   outline.south = outline.north = middle[1];
@@ -135,7 +135,7 @@ Outline outlineOf(const PlacedRaster& raster) {
       outline.west = std::min(outline.west, at[0]), outline.east = std::max(outline.east, at[0]);
       outline.south = std::min(outline.south, at[1]), outline.north = std::max(outline.north, at[1]);
     }
-  // About a pole a projected picture has all longitudes.
+  // About a pole a projected image has all longitudes.
   outline.known = geographic || std::max(-outline.south, outline.north) < 80;
   const double slack = 2 * outline.step + 0.02 * (outline.north - outline.south);
   if (!geographic)

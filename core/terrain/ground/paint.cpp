@@ -7,7 +7,7 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// How much of a texel's colour a line may at least have to be worth painting.
+/// A line of less than this part of a texel's colour is not worth painting.
 constexpr double kFaintest = 0.3;
 
 struct Edge {
@@ -52,7 +52,7 @@ class Coverage {
   /// Part of a texel by which every triangle is wider, so that none falls between two.
   static constexpr double kSlack = 1e-4;
 
-  /// Whether a cross about the point, its arms `reach` long, meets the triangle.
+  /// Reports whether a cross about the point, its arms `reach` long, meets the triangle.
   bool covers(double x, double y) const {
     if (meets(x, y, 1, 0)) return true;
     return reach_ > 0 && meets(x, y, 0, 1);
@@ -76,7 +76,7 @@ class Coverage {
   double reach_, west_, east_, south_, north_;
 };
 
-/// Smallest height of a triangle: the width of a line that it is a piece of.
+/// Returns the smallest height of a triangle: the width of a line that it is a piece of.
 template <class Corner>
 double widthOf(const std::array<Corner, 3>& c) {
   double longest = 0;
@@ -104,7 +104,7 @@ std::array<GroundPaint::Corner, 3> GroundPaint::cornersOf(const GroundTriangle& 
 }
 
 Rectangle GroundPaint::degreesOf(std::uint32_t blockColumn, std::uint32_t blockRow) const {
-  // What is widened in the coarsest level of a block reaches half a texel of it further.
+  // A line that is widened in the coarsest level of a block reaches half a texel of it further.
   constexpr double kMore = 4;
   const auto post = [&](double texel) { return (texel - shape_.texelOf(0)) / shape_.texelsPerPost; };
   const double side = side_, column = side * blockColumn, row = side * blockRow;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kTile = GroundShape::kTile;
 
-/// What there is to know of the posts under a tile.
+/// Holds what there is to know of the posts under a tile.
 class Posts {
  public:
   Posts(const HeightSource& source, const PostGeometry& geometry, const PostWindow& inner)

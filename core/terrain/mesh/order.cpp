@@ -9,11 +9,11 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// As many half-edges as the packing of triangles looks back on.
+/// The packing of triangles looks back on so many half-edges.
 constexpr std::uint32_t kRecent = 16;
 /// The best of so many is sought; older ones are used as they come.
 constexpr std::uint32_t kSought = 3;
-/// In place of a number of neighbours.
+/// Marks a vertex that is done, in place of a number of neighbours.
 constexpr std::uint8_t kDone = 4;
 
 }  // namespace

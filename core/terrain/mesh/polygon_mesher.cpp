@@ -48,7 +48,7 @@ Facet facetOf(const Triangulation& mesh, std::int32_t t) {
   return true;
 }
 
-/// Over some posts.
+/// Sums up over some posts.
 struct PostSum {
   double squares = 0, worst = 0;
 };
@@ -182,7 +182,7 @@ void PolygonMesher::Impl::scan(std::int32_t t, bool all) {
   const Facet facet = facetOf(mesh_, t);
   if (step_ == 1 &&
       Triangulation::turn(*facet.corner[0], *facet.corner[1], facet.corner[2]->x, facet.corner[2]->y) == 1) {
-    // No post but its corners.
+    // The triangle has no post but its corners.
     error_[static_cast<std::size_t>(t)] = squares_[static_cast<std::size_t>(t)] = 0;
     return;
   }

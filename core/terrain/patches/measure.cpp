@@ -15,7 +15,7 @@ namespace trimtab::terrain {
 namespace {
 
 constexpr std::size_t kStripPosts = std::size_t{1} << 20;
-/// What heights as floats may be off by.
+/// Heights as floats may be off by so many metres.
 constexpr double kFloatM = 0.002;
 
 struct VariantMeasure {
@@ -83,8 +83,8 @@ class PageMeasure {
     built_.bounds.push_back(bounds);
   }
 
-  /// What is not seen in heights above the plane. A vertex's slope is that of the steepest triangle about it
-  /// in any variant.
+  /// Measures the errors that are not seen in heights above the plane. A vertex's slope is that of the
+  /// steepest triangle about it in any variant.
   void bends(const PatchDraft& draft, PatchMeasure& patch) {
     slopes_.assign(draft.vertices.size(), 0.0);
     sideways_.clear();
@@ -164,8 +164,8 @@ class PageMeasure {
     return {from, to};
   }
 
-  /// Heights under a patch, and how many: posts on its left and lower edges are its own, and those where the
-  /// posts end.
+  /// Sums up the heights under a patch, and counts them: posts on its left and lower edges are its own, and
+  /// those where the posts end.
   void posts(const PatchDraft& draft, PatchMeasure& patch) {
     LaneRange heights(patch.lowest, patch.highest);
     for (std::uint32_t r = std::max(row_, patch.firstRow); r <= std::min(end_ - 1, patch.lastRow); ++r) {
@@ -205,9 +205,9 @@ class PageMeasure {
   }
 
   using Edge = std::array<std::uint32_t, 2>;
-  /// Edges of a variant that no finer one has, each once; those along rows and columns, where all is measured
-  /// at posts, are left out. Sorted by how many cells they cross, as each sort is measured in a way of its
-  /// own.
+  /// Collects the edges of a variant that no finer one has, each once; those along rows and columns, where
+  /// all is measured at posts, are left out. Sorted by how many cells they cross, as each sort is measured in
+  /// a way of its own.
   std::span<const Edge> newEdges(const PatchDraft& draft, std::size_t v) {
     constexpr std::size_t kSorts = 4;  // two cells, three, more; left out
     const PatchDraft::Variant& of = draft.variants[v];
@@ -217,7 +217,7 @@ class PageMeasure {
     for (std::size_t sort = 0; sort < kSorts; ++sort) end[sort] = edges_.data() + sort * most;
     draft.eachNew(v, [&](std::size_t t, const std::uint32_t* c) {
       for (std::size_t k = 0; k < 3; ++k) {
-        // Which edges are wanted cannot be guessed: without a branch.
+        // The wanted edges cannot be guessed, so this has no branch.
         const Edge edge{c[k], c[k == 2 ? 0 : k + 1]};
         const std::int32_t twin = of.twins[3 * t + k], other = twin >> 2;
         const bool isNew = of.heirs[static_cast<std::size_t>(std::max(other, 0))] == Heir::other;

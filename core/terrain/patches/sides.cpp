@@ -72,7 +72,7 @@ float PageField::height(PatchPoint p) const {
 
 std::vector<PatchPoint> PageField::simplified(PatchPoint from, PatchPoint to, std::uint32_t step,
                                               double tolerance) {
-  // Where the posts end, an end need not lie at a step; those parts have no posts between to choose from.
+  // Where the posts end, an end need not be at a step; those parts have no posts between to choose from.
   const std::uint32_t all = length(from, to);
   const bool byRow = from.row != to.row;
   const std::uint32_t start = byRow ? from.row : from.column;

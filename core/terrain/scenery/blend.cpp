@@ -10,11 +10,11 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// How many posts a difference fades out over.
+/// A difference fades out over so many posts.
 constexpr std::uint8_t kBandPosts = 32;
 constexpr std::uint32_t kSweeps = 150;
 constexpr double kOverRelaxation = 1.8;
-/// How many posts are read together. For each band of rows all tiles that overlap it are searched.
+/// So many posts are read together. For each band of rows all tiles that overlap it are searched.
 constexpr std::size_t kTogether = std::size_t{1} << 19;
 
 // Away from the nearest post of scenery, in posts, 0 on its border; or:

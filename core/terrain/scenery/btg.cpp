@@ -66,7 +66,7 @@ class BtgReader {
     at_ += sizeof(T);
     return value;
   }
-  /// A 16-bit number up to version 9, a 32-bit one from 10.
+  /// Reads a 16-bit number up to version 9, a 32-bit one from 10.
   std::optional<std::uint32_t> takeCount(const char* what) {
     if (wide_) return take<std::uint32_t>(what);
     const auto narrow = take<std::uint16_t>(what);

@@ -91,7 +91,7 @@ Result<std::unique_ptr<SceneryHeights>> SceneryHeights::open(const SceneryCatalo
   return Result<std::unique_ptr<SceneryHeights>>(std::move(heights), std::move(notes));
 }
 
-/// Before what is sea is known.
+/// Runs before what is sea is known.
 Result<Done> SceneryHeights::readSources(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
                                          std::span<std::uint8_t> reached) {
   if (blended_) return blended_->read(first, rows, heights, reached);

@@ -20,7 +20,7 @@ namespace {
 
 /// Tiles of scenery miss their buckets' borders by up to 0.1 m, as floats do at that size.
 constexpr double kOnLineDegrees = 3e-6;
-/// Less than trees join vertices over (kJoinM).
+/// This is less than the distance over which trees join vertices (kJoinM).
 constexpr double kSamePlaceDegrees = 9e-8;
 
 struct Place {
@@ -28,7 +28,8 @@ struct Place {
   Vec3 ecef;
 };
 
-/// Vertices of scenery on edges that one triangle alone has, with longitudes turned by so many degrees.
+/// Returns the vertices of scenery on edges that one triangle alone has, with longitudes turned by so many
+/// degrees.
 Result<std::vector<Place>> bordersOf(const SceneryCatalogue& scenery, double turn) {
   std::vector<Place> places;
   for (std::size_t tile = 0; tile < scenery.tiles().size(); ++tile) {
@@ -57,7 +58,7 @@ Result<std::vector<Place>> bordersOf(const SceneryCatalogue& scenery, double tur
   return places;
 }
 
-/// What all made tiles lie in.
+/// Knows what all made tiles lie in.
 class Surroundings {
  public:
   Surroundings(const SceneryCatalogue& scenery, std::vector<Place> borders, const HeightSource& heights,
@@ -168,8 +169,8 @@ class Maker {
     return sampled(longitude, latitude);
   }
 
-  /// Vertices along a line of latitude (`level`) or longitude, from its lesser end; `outward` says on which
-  /// side the neighbours are. The same for both tiles at it.
+  /// Returns the vertices along a line of latitude (`level`) or longitude, from its lesser end; `outward`
+  /// says on which side the neighbours are. They are the same for both tiles at it.
   std::vector<Place> side(bool level, double line, double from, double to, int outward) const {
     std::vector<double> cuts{from};
     if (level) {
@@ -243,7 +244,7 @@ class Maker {
       first.back() = b;
   }
 
-  /// A ring between the border and a rectangle of the grid's posts, and the rectangle meshed.
+  /// Makes a ring between the border and a rectangle of the grid's posts, and the rectangle meshed.
   void fill(const std::array<std::vector<Place>, 4>& sides, SceneryMesh& mesh) const {
     Rectangle in{-1e9, -1e9, 1e9, 1e9};
     for (const Place& p : sides[0]) in.south = std::max(in.south, p.latitude);

@@ -19,13 +19,13 @@ double distance(const Vec3& a, const Vec3& b) {
   return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
 }
 
-/// Some rows of the grid.
+/// Holds some rows of the grid.
 struct Rows {
   std::int64_t columns, first, end;
   std::span<float> heights;
   std::span<std::uint8_t> image;
 
-  /// Corners in columns and rows of the grid.
+  /// Adds a triangle; its corners are in columns and rows of the grid.
   void add(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::uint8_t, 3>& colour) const {
     const auto low = [](double x) { return static_cast<std::int64_t>(std::ceil(x - kSlack)); };
     const auto high = [](double x) { return static_cast<std::int64_t>(std::floor(x + kSlack)); };

@@ -28,7 +28,7 @@ Finding about(Severity severity, const std::string& where, std::string key, std:
   return {severity, where, std::move(key), std::move(expected), std::move(found)};
 }
 
-/// What there is to read, and what the lists name besides.
+/// Holds what there is to read, and what the lists name besides.
 struct Inventory {
   std::map<fs::path, bool> tiles;  ///< path, and whether it is an airport
   std::set<fs::path> lists;
@@ -36,7 +36,7 @@ struct Inventory {
   Findings findings;
 };
 
-/// A tile of a list: as it is named, or zipped.
+/// Returns a tile of a list: as it is named, or zipped.
 fs::path onDisk(const fs::path& named) {
   std::error_code error;
   for (const fs::path& candidate : {fs::path(named.string() + ".gz"), named})

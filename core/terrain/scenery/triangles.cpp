@@ -22,7 +22,7 @@ void tidyTriangles(SceneryMesh& mesh) {
   std::uint64_t facingUp = 0;
   for (const SceneryMesh::Triangle& t : all) {
     const auto [a, b, c] = t.vertex;
-    // Along the ellipsoid's normal, not the line to its centre.
+    // Up is along the ellipsoid's normal, not the line to its centre.
     const Vec3 normal{v[a].x, v[a].y, v[a].z * 1.00673949674228};
     const double area = dot(cross(v[b] - v[a], v[c] - v[a]), normal);
     if (area < 0) {

@@ -11,7 +11,7 @@ namespace trimtab::terrain {
 namespace {
 
 constexpr int kOutside = -1;
-/// What is no deeper inside a circle than this touches it.
+/// A corner that is no deeper inside a circle than this touches it.
 constexpr double kTouchM = 0.01;
 
 /// Returns whether the sides of an edge, and what lies beyond it, differ in material.

@@ -15,7 +15,7 @@ namespace trimtab::terrain {
 
 namespace {
 
-/// Everything of one tile; node numbers count from its root.
+/// Holds everything of one tile; node numbers count from its root.
 struct BuiltTile {
   StaticLodTile tile;
   std::vector<StaticLodIndex::Node> nodes;

@@ -13,7 +13,7 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 /// Orders collapses that cost nothing (sea, plains): short edges first. A share of the area, m^2 a m^2.
 constexpr double kLengthCost = 1e-8;
 
-/// How thin and how steep a triangle may become where those it replaces are neither.
+/// Says how thin and how steep a triangle may become where those it replaces are neither.
 struct Shape {
   double thinnest;  ///< twice the area over the longest edge squared, from above
   double steepest;  ///< rise over run
@@ -58,7 +58,7 @@ class Collapser {
   }
 
  private:
-  /// Where the new vertex goes; each is tried when the one before it would fold the surface.
+  /// Says where the new vertex goes; each is tried when the one before it would fold the surface.
   enum Way : std::uint8_t { kSolved, kBetween, kAtBetter, kAtOther, kWays };
 
   struct Candidate {
@@ -86,7 +86,7 @@ class Collapser {
     tail_[v] = c;
   }
 
-  /// Corners of a vertex whose triangles are left; forgets the others.
+  /// Finds the corners of a vertex whose triangles are left; forgets the others.
   void fanOf(std::uint32_t v, std::vector<std::uint32_t>& fan) {
     fan.clear();
     std::uint32_t last = kNone;
@@ -187,7 +187,8 @@ class Collapser {
     return static_cast<double>(area) / std::max({squared(a, b), squared(b, c), squared(c, a), 1.0});
   }
 
-  /// Whether every triangle that stays still faces up and is no worse than what the neighbourhood had.
+  /// Reports whether every triangle that stays still faces up and is no worse than what the neighbourhood
+  /// had.
   bool fits(std::uint32_t u, std::uint32_t v, const Placed& placed) {
     double thinnest = shape_.thinnest, steepest = shape_.steepest;
     double newThinnest = 1e9, newSteepest = 0;
@@ -264,7 +265,7 @@ class Collapser {
     fanOf(centre, fanU_);
     ring(centre, fanU_, ring_);
     for (const std::uint32_t x : ring_) offer(centre, x, 0);
-    // What could not be done next to here may be possible now.
+    // A collapse that was impossible next to here may be possible now.
     for (const std::uint32_t x : ring_)
       if (waiting_[x]) {
         waiting_[x] = 0;

@@ -56,7 +56,7 @@ VerticalDistance::VerticalDistance(std::span<const Lattice> vertices,
     forEachCell(t, [&](std::size_t cell) { inCell_[end[cell]++] = t; });
 }
 
-/// The cells that a triangle may touch, row by row: a long thin one touches few of those in its box.
+/// Visits the cells that a triangle may touch, row by row: a long thin one touches few of those in its box.
 template <class Visit>
 void VerticalDistance::forEachCell(std::uint32_t triangle, const Visit& visit) const {
   std::array<double, 3> x{}, y{};

@@ -42,7 +42,7 @@ struct List {
 
 constexpr const char* kRoot = "Terrain";
 
-/// Whether an export makes this: the folders, the lists, and the tiles.
+/// Reports whether an export makes this: the folders, the lists, and the tiles.
 bool isOfAnExport(const fs::path& inFolder) {
   const std::string name = inFolder.filename().string();
   if (*inFolder.begin() != kRoot) return false;

@@ -7,8 +7,8 @@
 
 namespace trimtab::terrain {
 
-/// Triangles by the places of their corners, whichever comes first, and by their material. Vertices have no
-/// say: one place may have several, one for each material or because a collapse put a new one there.
+/// Orders triangles by the places of their corners, whichever comes first, and by their material. Vertices
+/// have no say: one place may have several, one for each material or because a collapse put a new one there.
 template <class Place>
 class FaceCount {
  public:

@@ -25,7 +25,7 @@ struct LatticeHash {
   }
 };
 
-/// Everything wrong with one mesh; nothing if it can be used.
+/// Returns everything wrong with one mesh; empty if it can be used.
 Findings faultsOf(const SceneryMesh& mesh, const LocalFrame& frame) {
   Findings findings;
   const auto fault = [&](const std::string& key, const std::string& expected, const std::string& found) {
@@ -107,7 +107,7 @@ void weldTile(LatticeTile& tile, LatticeTiles& counts) {
   if (!tile.texture.empty()) tile.texture.resize(kept);
 }
 
-/// One entry a vertex: it ends an edge that one triangle alone uses, or more than two.
+/// Returns one entry for each vertex: it ends an edge that one triangle alone uses, or more than two.
 std::vector<std::uint8_t> openVertices(const LatticeTile& tile) {
   std::vector<std::uint8_t> open(tile.vertices.size());
   forEachEdge(sortedEdges(tile.triangles), [&](std::span<const EdgeUse> edge) {
@@ -125,7 +125,7 @@ class SharedPlaces {
     Vec3 normal;
   };
 
-  /// The nearest place within kJoinM; a new one where there is none.
+  /// Returns the nearest place within kJoinM; a new one if there is none.
   const Place& near(const Lattice& p) {
     constexpr std::int64_t kReach = static_cast<std::int64_t>(kJoinM / Lattice::kStepM);
     std::int64_t nearest = kReach * kReach + 1;
@@ -149,7 +149,7 @@ class SharedPlaces {
     }
     return places_[found];
   }
-  /// The place exactly there; null where there is none.
+  /// Returns the place exactly there; null if there is none.
   Place* at(const Lattice& p) {
     for (std::uint32_t i = firstIn(cell(p)); i != kNone; i = next_[i])
       if (places_[i].at == p) return &places_[i];

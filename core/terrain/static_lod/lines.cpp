@@ -19,7 +19,7 @@ struct Side {
   std::uint32_t left, right;  ///< triangles
 };
 
-/// Edges that two triangles share.
+/// Returns the edges that two triangles share.
 std::vector<Side> sidesOf(const LatticeTile& tile) {
   std::vector<Side> sides;
   forEachEdge(sortedEdges(tile.triangles), [&](std::span<const EdgeUse> edge) {
@@ -65,7 +65,7 @@ double flatLengthM(const Lattice& a, const Lattice& b) {
   return std::hypot(static_cast<double>(a.x) - b.x, static_cast<double>(a.y) - b.y) * Lattice::kStepM;
 }
 
-/// How far a place is from the stretch between two others, from above.
+/// Returns how far a place is from the stretch between two others, from above.
 double awayM(const Lattice& p, const Lattice& a, const Lattice& b) {
   const double x = static_cast<double>(b.x) - a.x, y = static_cast<double>(b.y) - a.y;
   const double px = static_cast<double>(p.x) - a.x, py = static_cast<double>(p.y) - a.y;

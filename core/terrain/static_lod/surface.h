@@ -8,7 +8,7 @@
 
 namespace trimtab::terrain {
 
-/// What simplification must know of a tile's source: where it may not touch it, and the quadric of each
+/// Holds what simplification must know of a tile's source: where it may not touch it, and the quadric of each
 /// vertex.
 struct SourceSurface {
   std::vector<std::uint8_t> fixed;  ///< per vertex: on a border of the tile or a hole, shared with another

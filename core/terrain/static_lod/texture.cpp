@@ -36,7 +36,7 @@ struct WedgeSums {
       products += Quadric{w * x * x, w * x * y, 0, w * y * y, 0, 0, w * x * d, w * y * d, 0, w * d * d};
     }
   }
-  /// The variance as square metres, times `scale` and the weight.
+  /// Returns the variance as square metres, times `scale` and the weight.
   Quadric variance(double scale) const {
     Quadric q = products;
     for (const Vec3& s : sum)

@@ -25,7 +25,7 @@ struct TextureMap {
 /// Returns the map of a triangle; unset if it is a sliver seen from above, or faces down.
 std::optional<TextureMap> textureMapOf(const std::array<Vec3, 3>& places, const TextureCorners& texture);
 
-/// Reports whether texture coordinates jump at an edge between two triangles. False without any.
+/// Reports whether texture coordinates jump at an edge between two triangles. Returns false without any.
 bool isSeam(const LatticeTile& tile, const EdgeUse& a, const EdgeUse& b);
 
 /// Adds, per wedge of a vertex, the variance of the coordinates that the maps of its triangles predict for a

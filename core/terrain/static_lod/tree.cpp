@@ -211,11 +211,11 @@ class Builder {
     node.lineWidthM = at;
   }
 
-  /// Its RMS error, metres.
+  /// Returns the node's RMS error, metres.
   double simplifyKeeping(LodTree::Node& node, const Patch& children, double pixelM) {
     if (!measure_) measure_.emplace(tile_, tree_);
     Patch patch = children;
-    // What lies between lines cannot go: the rest may have its n, or it would pay for them.
+    // Triangles between lines cannot go: the rest may have its n, or it would pay for them.
     std::size_t lines = 0;
     for (const auto& t : patch.triangles)
       lines += std::all_of(t.begin(), t.end(),

@@ -20,8 +20,8 @@ constexpr double kLatitude = 36.63, kLongitude = 128.35;
 /// A country of 65536 posts a side is as large as a GeoTIFF's tiles and a bake's patience allow.
 constexpr std::uint32_t kMostSide = 65536;
 
-/// Metres at a place in metres: ranges some 40 km apart, as high as the land is broad there, rough to the
-/// distance of posts.
+/// Returns the metres at a place in metres: ranges some 40 km apart, as high as the land is broad there,
+/// rough to the distance of posts.
 double heightAt(double east, double north, double range, double finest, std::uint32_t seed) {
   const int octaves = std::max(1, static_cast<int>(std::ceil(std::log2(4000 / finest))));
   const double broad = range + 0.15;
@@ -62,7 +62,7 @@ Result<Done> writeCountry(const fs::path& tif, const CountryOptions& options) {
     const auto row = [&](std::uint32_t r) {
       float* out = &heights[std::size_t{r} * options.columns];
       const double north = (posts.rows - 1.0 - first - r) * options.postM;
-      // What is broad changes little from post to post.
+      // Broad features change little from post to post.
       constexpr std::uint32_t kStep = 32;
       double range = 0, slope = 0;
       for (std::uint32_t c = 0; c < options.columns; ++c) {

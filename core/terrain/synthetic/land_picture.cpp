@@ -31,7 +31,7 @@ Colour scaled(const Colour& a, float by) {
   return {a[0] * by, a[1] * by, a[2] * by};
 }
 
-/// What is known of a place.
+/// Holds what is known of a place.
 struct Ground {
   double east = 0, south = 0;  ///< metres from the north-west corner
   float height = 0, slope = 0;
@@ -113,7 +113,7 @@ class Posts {
     const double value = band_.GetNoDataValue(&has);
     if (has != 0) noData_ = static_cast<float>(value);
   }
-  /// Reads rows from the north; voids become 0. False if GDAL fails.
+  /// Reads rows from the north; voids become 0. Returns false if GDAL fails.
   bool read(std::uint32_t first, std::uint32_t count, std::vector<float>& heights) {
     heights.resize(std::size_t{columns_} * count);
     const int columns = static_cast<int>(columns_), rows = static_cast<int>(count);
@@ -131,7 +131,7 @@ class Posts {
   std::optional<float> noData_;
 };
 
-/// The area that drains through each post, rows from the north; empty for a grid too large.
+/// Returns the area that drains through each post, rows from the north; empty for a grid too large.
 std::vector<float> drainedAreas(Posts& posts, const PostGrid& grid, double cellM, bool& failed) {
   const std::uint32_t side = std::max(grid.columns, grid.rows);
   if (side > kMostForRivers) return {};
@@ -150,7 +150,7 @@ std::vector<float> drainedAreas(Posts& posts, const PostGrid& grid, double cellM
   return drained;
 }
 
-/// Bilinear between posts: `at` counts posts from the first of `values`.
+/// Interpolates bilinearly between posts: `at` counts posts from the first of `values`.
 float between(std::span<const float> values, std::uint32_t columns, double column, double row) {
   const auto c = static_cast<std::size_t>(column), r = static_cast<std::size_t>(row);
   const auto u = static_cast<float>(column - double(c)), v = static_cast<float>(row - double(r));

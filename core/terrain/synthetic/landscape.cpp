@@ -31,8 +31,8 @@ double smoothNoise(double x, double y, std::uint32_t seed) {
   return south * (1 - v) + north * v;
 }
 
-/// How near a point is to a line between two others: 1 on it, falling with the square of the distance over
-/// `width`.
+/// Returns how near a point is to a line between two others: 1 on it, falling with the square of the distance
+/// over `width`.
 double ridge(double x, double y, double x0, double y0, double x1, double y1, double width) {
   const double dx = x1 - x0, dy = y1 - y0;
   const double t = std::clamp(((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
@@ -76,7 +76,7 @@ class Process {
     order_.reserve(size);
   }
 
-  /// Where land is, how it rises and how soft it is.
+  /// Decides where land is, how it rises and how soft it is.
   void lay(std::uint32_t seed) {
     rise_.resize(heights.size());
     softness_.resize(heights.size());
@@ -278,7 +278,7 @@ class Process {
   std::uint32_t turn_ = 0;
 };
 
-/// The same ground drawn on cloth that was pulled a little here and there: no valley is straight, and what
+/// Draws the same ground on cloth that was pulled a little here and there: no valley is straight, and what
 /// runs down still does.
 Landscape bent(const std::vector<float>& heights, const LandscapeShape& land) {
   Landscape result{land.side, land.cellM, heights, {}};

@@ -16,7 +16,7 @@ namespace trimtab::scene {
 namespace {
 
 constexpr int kTile = static_cast<int>(terrain::GroundShape::kTile);
-/// What is uploaded at a time.
+/// A side of the square block that is uploaded at a time, texels.
 constexpr int kBlock = 64;
 constexpr int kBlocks = GroundTexture::kSide / kBlock;
 constexpr std::size_t kBlockBytes = std::size_t{kBlock} * kBlock * 4;
@@ -84,7 +84,7 @@ struct GroundTexture::Impl {
     complete = false;
   }
 
-  /// Which tile has a block; what lies past the borders repeats the last texels.
+  /// Returns the tile of a block; what lies past the borders repeats the last texels.
   GroundTiles::Tile tileOf(std::size_t l, BlockPlace block) const {
     const auto tile = [](int b, std::uint32_t texels) {
       return static_cast<std::uint32_t>(std::clamp(b * kBlock, 0, static_cast<int>(texels) - 1) / kTile);
@@ -125,7 +125,7 @@ struct GroundTexture::Impl {
   };
   std::vector<Missing> missing;
 
-  /// The window about the eye, what it lacks by distance, and how far it may be used.
+  /// Finds the window about the eye, what it misses by distance, and how far it may be used.
   void look(std::size_t l) {
     Level& level = levels[l];
     const double scale = std::ldexp(1.0, -static_cast<int>(l));
@@ -209,12 +209,12 @@ struct GroundTexture::Impl {
     allow();
   }
 
-  /// What the shader may use: a level, and with it all coarser ones.
+  /// Allows what the shader may use: a level, and with it all coarser ones.
   void allow() {
     reach = std::numeric_limits<double>::infinity();
     finest = whole = levels.size() - 1;
     for (std::size_t l = levels.size(); l-- > 0;) {
-      // Between texels needs the ones beside.
+      // A place between texels needs the ones beside it.
       const double own = std::ldexp(levels[l].reach, -static_cast<int>(l)) - 1.5;
       if (own < kLeastReach && l + 1 < levels.size()) break;
       if (std::isinf(own) && std::isinf(reach)) whole = l;

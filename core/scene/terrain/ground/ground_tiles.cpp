@@ -12,7 +12,7 @@ namespace trimtab::scene {
 namespace {
 
 constexpr std::size_t kMostFailures = 20;
-/// Where not even the coarsest level can be read.
+/// The colour of a tile of which not even the coarsest level can be read.
 constexpr std::uint32_t kNothingKnown = 0xaa808080u;
 /// Tiles that the thread may be ahead of the image.
 constexpr std::size_t kMostUntaken = GroundTiles::kKept / 2;
@@ -84,7 +84,7 @@ std::shared_ptr<const GroundPixels> GroundTiles::load(const Tile& tile) {
   return fromCoarser(tile);
 }
 
-/// What the next level has of a tile, between its texels; grey where there is no such level.
+/// Returns what the next coarser level has of a tile, between its texels; grey if there is no such level.
 std::shared_ptr<const GroundPixels> GroundTiles::fromCoarser(const Tile& tile) {
   constexpr int kSide = static_cast<int>(terrain::GroundShape::kTile);
   GroundPixels pixels(std::size_t{kSide} * kSide, kNothingKnown);
@@ -153,7 +153,7 @@ void GroundTiles::want(std::vector<Tile> tiles) {
     wanted_ = std::move(tiles);
     wantedKeys_.clear();
     for (const Tile& tile : wanted_) wantedKeys_.insert(tile.key());
-    // What nobody waits for any more holds nobody up.
+    // A tile that nobody waits for any more must hold nobody up.
     for (auto& [key, entry] : entries_)
       if (!entry.taken && !wantedKeys_.contains(key)) {
         entry.taken = true;

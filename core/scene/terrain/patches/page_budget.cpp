@@ -33,7 +33,7 @@ void PageBudget::aim(std::span<const PageWant> now, std::span<const PageWant> la
     std::sort(sorted_.begin(), sorted_.end(), isMoreUrgent);
     for (const PageWant& want : sorted_) {
       if (aimed_[want.page] == aimNumber_) continue;
-      // Not past the first that does not fit: what stands on it would be of no use.
+      // The selection stops at the first page that does not fit: what depends on it would be of no use.
       if (want.page >= rootPages_ && bytes + bytesOf_[want.page] > budget_) return false;
       bytes += bytesOf_[want.page];
       aimed_[want.page] = aimNumber_;

@@ -17,9 +17,9 @@ class PageBudget {
   /// are held whatever they cost.
   void reset(std::vector<std::uint64_t> bytes, std::uint32_t rootPages);
 
-  /// Sets the pages to be held: those that a view needs `now`, and those that it will need `later`. Of each,
-  /// the pages without which the error is largest come first, as far as the budget reaches. If `now` does
-  /// not fit, nothing is left for `later`.
+  /// Sets the pages to be held: those that a view needs `now`, and those that it will need `later`. In each,
+  /// the pages without which the error is largest come first, as far as the budget reaches. If `now` does not
+  /// fit, nothing is left for `later`.
   void aim(std::span<const PageWant> now, std::span<const PageWant> later, std::uint64_t budget);
   /// Returns them in order of their error, `later` after `now`.
   std::span<const PageWant> aims() const { return aims_; }

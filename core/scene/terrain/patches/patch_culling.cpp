@@ -14,18 +14,18 @@
 namespace trimtab::scene {
 namespace {
 
-/// What a frame may spend on taking pages in; one page is always taken.
+/// A frame may spend so much time on pages that arrived; it always receives one.
 constexpr std::chrono::microseconds kShare{2000};
-/// What is reserved on the GPU before it is needed.
+/// At most so many bytes are reserved on the GPU before they are needed.
 constexpr double kMostReserved = 256e6;
-/// How far ahead the eye is looked for: several times what reading the pages of the way there takes.
+/// The eye is looked for so many seconds ahead: several times what reading the pages of the way there needs.
 constexpr double kAheadS = 5;
-/// What is needed then is so much less urgent than what is needed now.
+/// A page that is needed then is so much less urgent than one that is needed now.
 constexpr float kAheadUrgency = 0.25f, kMostAheadPx = 1e6f;
 /// Needs of then are found again when the eye of then has moved by so much of the way.
 constexpr double kAheadStep = 0.08;
 
-/// What the cut depends on: what is asked for, and what of it is held.
+/// Holds what the cut depends on: what is asked for, and what of it is in memory.
 struct PagedCutKey {
   CutKey cut;
   std::uint64_t budget = 0, heldNumber = 0;
@@ -175,8 +175,8 @@ void PatchCulling::Impl::takeAll(std::span<const std::uint32_t> wanted, PatchLay
   for (const auto& page : pager->takeArrived(std::numeric_limits<std::size_t>::max())) takeIn(page, layer);
 }
 
-/// What the budget may hold of this terrain, at once, unless that is very much: growing later makes a frame
-/// late.
+/// Reserves what the budget may hold of this terrain, at once, unless that is very much: growing later makes
+/// a frame late.
 void PatchCulling::Impl::reserve(const FrameRequest& request, PatchLayer& layer) {
   const std::uint64_t budget = budgetOf(request);
   // Another budget is another try.
@@ -191,7 +191,7 @@ void PatchCulling::Impl::reserve(const FrameRequest& request, PatchLayer& layer)
                 static_cast<std::size_t>(share * static_cast<double>(bytes.indices)));
 }
 
-/// Where the budget has shrunk a lot, the room of before is somebody else's to use. Whether pages had to go.
+/// Gives back the memory of before if the budget has shrunk a lot, and reports whether pages had to go.
 bool PatchCulling::Impl::giveBack(const FrameRequest& request, PatchLayer& layer) {
   const std::uint64_t budget = budgetOf(request);
   if (budget >= reservedFor / 2) return false;
@@ -203,7 +203,7 @@ bool PatchCulling::Impl::giveBack(const FrameRequest& request, PatchLayer& layer
   return pages.held().size() < held.size();
 }
 
-/// A layer of a new context has nothing.
+/// Begins again if the layer is of a new context, which has nothing.
 void PatchCulling::Impl::followLayer(PatchLayer& layer) {
   if (!pages.held().empty() && !layer.has(pages.held().front())) {
     while (!pages.held().empty()) letGo(pages.held().front());
@@ -216,7 +216,7 @@ void PatchCulling::Impl::followLayer(PatchLayer& layer) {
 }
 
 std::optional<Vec3> PatchCulling::Impl::eyeAhead(const FrameRequest& request, Vec3 eye) const {
-  // What must not depend on time does not look ahead.
+  // A request that must not depend on time does not look ahead.
   if (!request.velocity || request.frozenEye || request.waitForPages) return {};
   const Velocity& v = *request.velocity;
   const Mat3 axes = eastNorthUp(request.eye.latitude, request.eye.longitude);
@@ -299,7 +299,7 @@ PatchCulling::Paged PatchCulling::page(const FrameRequest& request, const EyePos
     }
   }
   m.makeRoom(0, layer);
-  // What is not there must not be taken for ground that hides.
+  // Ground whose page has gone must not be assumed to hide anything.
   if (m.giveBack(request, layer)) done.cutsSelected += m.choose(request, eye, cut_);
 
   const terrain::Pager::Counters read = m.pager->counters();

@@ -30,11 +30,10 @@ class PatchCulling {
     PagingFrame paging;
     std::uint64_t cutsSelected = 0;
   };
-  /// Takes in pages that have arrived, within the frame's share; selects the cut of `eye`, asks for the
-  /// pages that it lacks, and drops those that are over the budget and were unused for longest. It waits
-  /// only for the roots, once, or with `request.waitForPages` for every page that this view can use. The
-  /// context must be current, and `layer` must have this terrain's index; pages that it has lost are read
-  /// again.
+  /// Takes in pages that have arrived, within the frame's share; selects the cut of `eye`, asks for the pages
+  /// that it misses, and drops those that are over the budget and were unused for longest. It waits only for
+  /// the roots, once, or with `request.waitForPages` for every page that this view can use. The context must
+  /// be current, and `layer` must have this terrain's index; pages that it has lost are read again.
   Paged page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer);
   const PatchIndex& index() const;
   const LevelCut& cut() const { return cut_.cut; }

@@ -20,8 +20,8 @@ bool isOver(const Box& b, float x, float y, float beside = 0) {
   return x >= b.minX - beside && x <= b.maxX + beside && y >= b.minY - beside && y <= b.maxY + beside;
 }
 
-/// Whether heights that differ along the earth's verticals differ by at most half as much again along the
-/// frame's, where it is nowhere steeper than that. Bounds: metres from the origin.
+/// Reports whether heights that differ along the earth's verticals differ by at most half as much again along
+/// the frame's, where it is nowhere steeper than that. Bounds: metres from the origin.
 bool isGentle(const Box& b, Vec3 origin, double steepest) {
   double lean = 0;
   for (const float x : {b.minX, b.maxX})
@@ -118,7 +118,7 @@ std::size_t PatchGround::makeSurfaces(Vec3 eye) {
       make(*patches_.meshOf(patch.node), patch, surfaces_.make(patch.node));
     });
   };
-  // While one may hang over, none hides anything: first those that only their surface can tell of.
+  // While one may hang over, none hides anything: so surfaces that alone can show it are made first.
   makeNearest([&](TileDraw patch) { return !normalsRise(patch.node) && lacks(patch); });
   return makeNearest(lacks);
 }
@@ -162,7 +162,7 @@ void PatchGround::fill(std::vector<HorizonTile>& tiles) {
   for (const TileDraw& patch : cut().tiles) {
     const Surface* surface = surfaceOf(patch);
     tiles.push_back({.mayOcclude = surface && surface->inside, .mesh = surface ? &surface->relief : nullptr});
-    // Beside another variant's surface it would be told by that one whether it takes room.
+    // A lid beside another variant's surface would be judged by that surface (takesRoom), so there is none.
     if (!surfaces_.find(patch.node))
       tiles.back().mesh = lids_.of(patch.node, patches_.index().bounds[patch.node]);
   }

@@ -11,7 +11,7 @@ namespace {
 
 using terrain::PatchVertex;
 
-/// What shaders read of a block: two texels of RGBA32I.
+/// Holds what shaders read of a block: two texels of RGBA32I.
 struct SlotData {
   std::int32_t origin[3], patch;
   std::int32_t firstColumn, firstRow, unused[2];

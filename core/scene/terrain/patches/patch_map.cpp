@@ -105,7 +105,7 @@ void makePatchSurface(const terrain::PatchMesh& mesh, int variant, PatchSurface&
                         std::min(y + 1, steep.height() - 1)},
                        [&, s = steep(x, y)](float& most) { most = std::max(most, s); });
 
-  // What is within `reach` of the border: two squares around steps along it.
+  // Marks what is within `reach` of the border: two squares around steps along it.
   Squares<std::uint8_t> beside(box, m.reach, 0);
   std::vector<std::pair<std::uint16_t, std::uint16_t>> outline;
   for (const auto& [ends, sides] : edges) {

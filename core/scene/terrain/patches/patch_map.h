@@ -15,7 +15,7 @@ namespace trimtab::scene {
 /// A patch for the CPU's depth map: its own triangles, and walls down from its border, so that no ray slips
 /// through where neighbours are lowered differently.
 ///
-/// The patch alone tells how steep the drawn surface is near a vertex, by squares of `mesh.reach`. Nearer to
+/// The patch alone shows how steep the drawn surface is near a vertex, by squares of `mesh.reach`. Nearer to
 /// its border than that, the slopes of its neighbours in this cut count too.
 struct PatchSurface {
   DepthMesh mesh;

@@ -11,7 +11,7 @@
 namespace trimtab::scene {
 namespace {
 
-/// How many different vertices each node's triangles have.
+/// Returns how many different vertices each node's triangles have.
 std::vector<std::uint32_t> vertexCounts(const terrain::StaticLodTerrain& terrain) {
   std::vector<std::uint32_t> counts(terrain.index.size());
   std::vector<std::vector<std::uint32_t>> lastUser(terrain.tiles.size());
@@ -78,7 +78,8 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
                           farM,
                           request.overlays.treePicture,
                           request.testedWithinM};
-  // Frozen, what was hidden from there stays hidden: the image is another eye's and cannot tell.
+  // Frozen, what was hidden from there stays hidden: the image is another eye's and cannot show what is
+  // hidden from this one.
   if (visibleKey_ == wanted && (request.frozenEye || request.skips.sameVisible)) return counters;
   visibleKey_ = wanted;
   hiddenIsKnown_ = false;

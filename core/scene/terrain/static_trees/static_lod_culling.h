@@ -48,8 +48,8 @@ class StaticLodCulling {
   void countVertices();
   std::uint64_t hideableTriangles(Vec3 eye) const;
 
-  /// What the cut depends on. It is not the CutKey of tiles and patches: the rule is document E's, and the
-  /// cut may be one level of all trees.
+  /// Holds what the cut depends on. It is not the CutKey of tiles and patches: the rule is document E's, and
+  /// the cut may be one level of all trees.
   struct TreeCutKey {
     Vec3 eye;
     ErrorMeasure error = ErrorMeasure::rms;
@@ -66,7 +66,7 @@ class StaticLodCulling {
   std::size_t near_ = 0;  ///< of the cut
   VisibleSet visible_;
   std::size_t visibleNear_ = 0;
-  /// What the visible set depends on, hidden nodes included.
+  /// Holds what the visible set depends on, hidden nodes included.
   struct VisibleKey {
     TreeCutKey cut;
     EyePose eye;

@@ -50,7 +50,8 @@ unsigned makeBuffer(unsigned target, const std::vector<T>& data) {
   return buffer;
 }
 
-/// Edges of a node's triangles, each once, as `first << 32 | second` with first < second; the locked apart.
+/// Collects the edges of a node's triangles, each once, as `first << 32 | second` with first < second; the
+/// locked apart.
 void collectEdges(const terrain::StaticLodTile& tile, const terrain::StaticLodRange& range,
                   std::vector<std::uint64_t>& free, std::vector<std::uint64_t>& locked) {
   for (std::size_t t = range.firstTriangle; t < std::size_t{range.firstTriangle} + range.triangles; ++t)

@@ -43,10 +43,10 @@ class StaticLodLayer {
   /// giving up others.
   BuiltAhead buildAhead(std::span<const std::uint32_t> nodes, std::chrono::steady_clock::time_point deadline);
 
-  /// One multi-draw, in order. The program in use reads attributes 0 position, 1 normal, 2 texture
-  /// coordinates (0 where the terrain kept none), 3 colour.
+  /// Draws the nodes with one multi-draw, in order. The program in use reads attributes 0 position, 1 normal,
+  /// 2 texture coordinates (0 where the terrain kept none), 3 colour.
   void draw(std::span<const TileDraw> nodes);
-  /// The same with each node's number and colour (RGBA8; or none) as attributes 4 and 5.
+  /// Does the same with each node's number and colour (RGBA8; or none) as attributes 4 and 5.
   void drawNumbered(std::span<const TileDraw> nodes, std::span<const std::uint32_t> colours = {});
   /// Document E's image: faces light grey, edges red, locked edges black.
   void drawPicture(unsigned program, std::span<const TileDraw> nodes);

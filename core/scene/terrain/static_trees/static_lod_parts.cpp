@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kUnbounded = std::numeric_limits<float>::infinity();
 
-/// From the tile's origin to the terrain's frame, rounded outwards.
+/// Returns the box in the terrain's frame instead of the tile's, rounded outwards.
 Box placed(const Box& box, const std::int32_t* origin) {
   const auto down = [](double v) { return std::nextafter(static_cast<float>(v), -kUnbounded); };
   const auto up = [](double v) { return std::nextafter(static_cast<float>(v), kUnbounded); };

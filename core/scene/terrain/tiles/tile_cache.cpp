@@ -12,7 +12,7 @@ namespace trimtab::scene {
 namespace {
 
 constexpr std::uint32_t kFirstSlots = 256;
-/// Beyond this many slots (89 MB) the longest unused are given up instead; a frame that needs more still
+/// Beyond this many slots (89 MB) the least recently used are given up instead; a frame that needs more still
 /// gets them.
 constexpr std::uint32_t kKeptSlots = 4096;
 constexpr std::size_t kVertexBytes = sizeof(terrain::TileVertex);
@@ -27,7 +27,7 @@ constexpr std::array kTileAttributes{
     VertexAttribute{2, 1, GL_UNSIGNED_BYTE, false, offsetof(TileVertex, slope)},
     VertexAttribute{3, 4, GL_UNSIGNED_BYTE, true, offsetof(TileVertex, colour)}};
 
-/// A vertex array with its own index buffer.
+/// Makes a vertex array with its own index buffer.
 GLuint makeArray(const std::vector<std::uint16_t>& indices, GLuint& indexBuffer) {
   GLuint array = 0;
   glGenVertexArrays(1, &array);
@@ -81,13 +81,13 @@ std::size_t TileCache::bytes() const {
   return slots_.size() * kSlotBytes;
 }
 
-/// False where there is no memory for more: the slots are those that there were.
+/// Returns false if there is no memory for more: the slots are those that there were.
 bool TileCache::growTo(std::size_t after) {
   const std::size_t before = slots_.size();
   const bool grown = growBuffer(vertexBuffer_, before * kSlotBytes, after * kSlotBytes) &&
                      growBuffer(occluderBuffer_, before * kOccluderBytes, after * kOccluderBytes) &&
                      growBuffer(partBuffer_, before * kPartBytes, after * kPartBytes);
-  // Some may have been replaced even so.
+  // The buffers may have been replaced even so.
   glBindVertexArray(vertexArray_);
   glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
   defineAttributes(kTileAttributes, kVertexBytes);

@@ -33,12 +33,12 @@ class TileCache {
 
   /// Forgets all tiles.
   void setDatabase(std::shared_ptr<const terrain::Database> database);
-  /// Makes sure that the tiles have slots: builds those that lack one, or all of them with `anew`, and
+  /// Makes sure that the tiles have slots: builds those that miss one, or all of them with `anew`, and
   /// returns how many were built. Without memory for more, the slots that were unused for longest are given
   /// up, and tiles beyond that have none.
   std::size_t prepare(std::span<const TileDraw> tiles, bool anew = false);
 
-  /// Builds tiles that lack a slot, in order, until `deadline`, for coming frames.
+  /// Builds tiles that miss a slot, in order, until `deadline`, for coming frames.
   BuiltAhead buildAhead(std::span<const std::uint32_t> nodes, std::chrono::steady_clock::time_point deadline);
 
   /// Draws tiles in order; those without a slot are skipped. The program in use reads attributes 0 position,

@@ -25,7 +25,7 @@ class TileDrawer final : public TerrainDrawer {
                         std::chrono::steady_clock::time_point deadline) override {
     return gl_->tiles.buildAhead(nodes, deadline);
   }
-  // The depth map's passes, if `prepare` set a depth view.
+  // Runs the depth map's passes, if `prepare` set a depth view.
   void drawOccluders();
   void reduce(unsigned program) { gl_->occlusion.reduce(program); }
   /// Tests the visible tiles against that map, waits for the result, and removes what it hides.

@@ -28,8 +28,8 @@ inline bool facesAway(const NormalCone& cone, const Box& b, Vec3 eye) {
   if (!cone.isKnown()) return false;
   const Vec3 low{b.minX, b.minY, b.minZ}, high{b.maxX, b.maxY, b.maxZ};
   const Vec3 axis = cone.axis(), away = eye - (low + high) * 0.5, half = (high - low) * 0.5;
-  // For the vectors eye - p to all points p of the box: the largest component along the axis, then the
-  // longest.
+  // For the vectors eye - p to all points p of the box, `along` is the largest component along the axis, and
+  // `longest` bounds their length.
   const double along =
       dot(away, axis) + half.x * std::abs(axis.x) + half.y * std::abs(axis.y) + half.z * std::abs(axis.z);
   if (!(along < 0)) return false;

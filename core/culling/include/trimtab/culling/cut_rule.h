@@ -6,7 +6,7 @@
 
 namespace trimtab {
 
-/// Where LodParameters::spread moves the distance at which a node is exchanged for its children. Takes and
+/// Moves the distance at which a node is exchanged for its children, by LodParameters::spread. Receives and
 /// returns squares of metres. 0 stays 0 and infinity stays infinity.
 inline double spreadSquared(double distance2, double spread, double fromM) {
   if (spread == 1) return distance2;
@@ -14,7 +14,7 @@ inline double spreadSquared(double distance2, double spread, double fromM) {
   return from2 * std::pow(distance2 / from2, spread);
 }
 
-/// How a cut by screen-space error follows from the geometric errors of nodes and their distances.
+/// Says how a cut by screen-space error follows from the geometric errors of nodes and their distances.
 struct CutRule {
   double maxErrorPx = 0, lodScale = 1, pixelsPerRadian = 0;
   double spread = 1, spreadFromM = 5000;  ///< LodParameters
@@ -36,9 +36,10 @@ struct CutRule {
   double perDistance() const { return maxErrorPx * lodScale / pixelsPerRadian; }
 };
 
-/// What a cut of tiles or of patches depends on. As long as the key stays the same, the cut may be kept; a
-/// cut of patches depends on the pages that are held, too. Static trees have a key of their own, because
-/// their rule is document E's: a distance per metre of error, by a measure of error that the key names.
+/// Holds what a cut of tiles or of patches depends on. As long as the key stays the same, the cut may be
+/// kept; a cut of patches depends on the pages that are held, too. Static trees have a key of their own,
+/// because their rule is document E's: a distance per metre of error, by a measure of error that the key
+/// names.
 struct CutKey {
   Vec3 eye;
   CutRule rule;

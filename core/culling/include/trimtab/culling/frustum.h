@@ -31,7 +31,7 @@ class Frustum {
   /// Returns false only if no point of the box can be in the image.
   bool mayShow(const Box& b) const {
     return eachPlane(b, [](double middle, double reach, double offset, double margin) {
-      // Written so that a plane that is not a number drops nothing.
+      // The test is written so that a plane that is not a number drops nothing.
       return !(middle + reach < offset - margin);
     });
   }

@@ -26,7 +26,7 @@ struct HorizonTile {
   /// occlude. With them the column of directions that contains the common border is not lost.
   const TileRelief *east = nullptr, *north = nullptr;
   const MeshRelief* mesh = nullptr;  ///< instead of `relief`: any triangles
-  /// How much lower and higher than given the surface may be drawn here while the horizon is in use, metres.
+  /// Metres by which the surface may be drawn lower and higher than given while the horizon is in use.
   float below = 0, above = 0;
 
   const Relief* surface() const { return relief ? static_cast<const Relief*>(relief) : mesh; }
@@ -40,8 +40,8 @@ struct ValidityRegion {
   bool holds(Vec3 eye) const;
 };
 
-/// What the ground around an eye hides, in every direction at once, so that it stays valid while the head
-/// turns.
+/// Finds what the ground around an eye hides, in every direction at once, so that it stays valid while the
+/// head turns.
 ///
 /// A tile is hidden if each of its parts is below the horizon: the highest line of ground that is wholly
 /// nearer, in every direction of the plan that the part spans. resources/docs/occlusion.md, The horizon, has
@@ -149,7 +149,7 @@ class Horizon {
     float besideM, below, nearest;
     int side;
   };
-  /// How far the eye may be from the middle of the validity region, as one quarter sees it, metres.
+  /// Says how far the eye may be from the middle of the validity region, as one quarter sees it, metres.
   struct Play {
     float along, side, radius;  ///< half the segment forwards and sideways; the radius around it
     float forwards, upwards;    ///< largest offsets

@@ -8,8 +8,8 @@
 
 namespace trimtab {
 
-/// A mesh's drawn surface in the form that the horizon reads: any triangles over a field of posts. Made once
-/// per mesh.
+/// A mesh's drawn surface in the form that the horizon reads: any triangles over a field of posts. It is made
+/// once per mesh.
 ///
 /// Its lines, which may hide others, are sections of the surface along rows and columns of posts. A section
 /// runs through triangles from edge to edge, so it lies on the surface wherever the edges are.

@@ -8,7 +8,7 @@
 
 namespace trimtab {
 
-/// What the horizon reads first of any surface.
+/// Holds what the horizon reads first of any surface.
 struct Relief {
   Vec3 origin;  ///< metres, local frame; all other coordinates are relative to it
   Box bounds;
@@ -20,8 +20,8 @@ struct Relief {
 /// Returns an upper bound of how far a line's corners lie beside its chord in plan, metres.
 float furthestBeside(std::span<const float> x, std::span<const float> y);
 
-/// A tile's drawn surface in the form that the horizon reads: a square of posts, rows from the south. Made
-/// once per tile.
+/// A tile's drawn surface in the form that the horizon reads: a square of posts, rows from the south. It is
+/// made once per tile.
 ///
 /// Each triangle's corners must be posts of one block of kBlockCells x kBlockCells cells, and along every
 /// even row and column inside the tile all edges from post to post must be drawn.

@@ -23,7 +23,7 @@ namespace trimtab {
 struct LevelCut {
   std::vector<TileDraw> tiles;  ///< selectors choose an order that depends on the terrain only
 
-  // What selectVisible reads beside the tiles; `gather` computes it.
+  // selectVisible reads these beside the tiles; `gather` computes them.
   BoxArrays boxes;                                    ///< bounds of each tile
   BoxArrays blockBoxes;                               ///< bounds of each block of BoxArrays::kBlock tiles
   std::vector<std::uint32_t> triangles;               ///< drawn for each tile
@@ -45,7 +45,7 @@ void selectLevels(const TerrainIndex& index, Vec3 eye, const CutRule& rule, Leve
 /// Computes the rest of a cut from its tiles. selectLevels calls it.
 void gather(const TerrainIndex& index, LevelCut& cut);
 
-/// What selectVisible tests the nodes of a cut against.
+/// Holds what selectVisible tests the nodes of a cut against.
 struct VisibleQuery {
   EyePose eye = {};
   ViewShape view = {};

@@ -22,7 +22,7 @@ double staticLodDistancePerError(const StaticLodParameters& parameters, double l
 /// `as_published`.
 std::vector<float> staticLodError(const StaticLodIndex& index, ErrorMeasure measure);
 
-/// How distances follow from errors.
+/// Says how distances follow from errors.
 struct StaticLodRule {
   double distancePerError = 0;            ///< of staticLodDistancePerError
   double spread = 1, spreadFromM = 5000;  ///< LodParameters

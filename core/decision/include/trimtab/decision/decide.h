@@ -10,9 +10,8 @@
 
 namespace trimtab {
 
-/// What one decision remembers for the next: the band, for the hysteresis, the stacks of head motion, and
-/// where the levers are.
-/// With a default memory the first decision is a plain look-up.
+/// Holds what one decision remembers for the next: the band, for the hysteresis, the stacks of head motion,
+/// and where the levers are. With a default memory the first decision is a plain look-up.
 struct DecisionMemory {
   std::optional<int> band;  ///< of the last decision; -1 is the scheme *frustum*
   MotionMemory motion{};

@@ -12,7 +12,7 @@
 #include "trimtab/preset/parameters.h"
 #include "trimtab/units/geodesy.h"
 
-/// What a frame passes on, in order: state, view, cost, input, decision.
+/// Declares what a frame passes on, in order: state, view, cost, input, decision.
 namespace trimtab {
 
 /// The half-angles of a view that a host asks for (CIGI View Definition), degrees; left and bottom are
@@ -43,7 +43,7 @@ struct Velocity {
   friend bool operator==(const Velocity&, const Velocity&) = default;
 };
 
-/// What one packet, or one row of a flight, says about the aircraft.
+/// Holds what one packet, or one row of a flight, says about the aircraft.
 struct AircraftState {
   double time = 0;  ///< seconds on the host's clock; the arrival time if the host sends none
   std::uint64_t packet =
@@ -80,7 +80,7 @@ double pixelsPerRadian(const ViewShape& view);
 /// A scale that is not between 0 and 1 counts as 1, which changes nothing.
 ViewShape scaledShape(ViewShape view, double scale);
 
-/// Which field of view an image has in a window of another shape than the preset's.
+/// Says which field of view an image has in a window of another shape than the preset's.
 enum class ViewFit {
   preset,  ///< the preset's, so that a pixel may be wider than high
   fill     ///< that of filledShape, where the window gives the image's size (RenderSize::fit)
@@ -120,7 +120,7 @@ struct FrameInput {
 
 enum class Scheme { frustum, dynamic };
 
-/// Why a scheme and size were chosen; explain() in core/decision makes a sentence of it.
+/// Says why a scheme and size were chosen; explain() in core/decision makes a sentence of it.
 enum class SchemeReason {
   below_first_band,    ///< total under the lowest edge: view frustum alone
   in_band,             ///< the band that holds the total
@@ -129,8 +129,8 @@ enum class SchemeReason {
   altitude_unknown     ///< the preset asks for the height above ground, and neither host nor terrain knows it
 };
 
-/// How finely a frame looks for hidden ground, as a size in pixels: that of the depth map if one is drawn, or
-/// the texels over the view from which the columns of a horizon follow.
+/// Says how finely a frame looks for hidden ground, as a size in pixels: that of the depth map if one is
+/// drawn, or the texels over the view from which the columns of a horizon follow.
 struct OcclusionResolution {
   int widthPx = 0, heightPx = 0;
   friend bool operator==(const OcclusionResolution&, const OcclusionResolution&) = default;

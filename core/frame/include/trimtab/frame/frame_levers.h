@@ -11,10 +11,10 @@
 #include "trimtab/frame/hold_decision.h"
 #include "trimtab/preset/parameters.h"
 
-/// Who may change how coarsely an image is drawn, and in which order: preset, head motion, weather, policy,
-/// budget. Each step is one function below. Steps 2 to 5 take the levers and return them; why they did it
-/// stands in MotionDecision, WeatherDecision, PolicyOutcome and HoldDecision. The levers after every step are
-/// kept in FrameRequest, in the trace, and in the docks Decision and Budget. The renderer reads
+/// Declares who may change how coarsely an image is drawn, and in which order: preset, head motion, weather,
+/// policy, budget. Each step is one function below. Steps 2 to 5 get the levers and return them; why they
+/// did it is in MotionDecision, WeatherDecision, PolicyOutcome and HoldDecision. The levers after every
+/// step are kept in FrameRequest, in the trace, and in the docks Decision and Budget. The renderer reads
 /// `LeverChain::drawn`; in flight nothing sets a lever after that.
 namespace trimtab {
 

@@ -14,8 +14,8 @@
 /// The request for one image.
 namespace trimtab {
 
-/// Work that a frame skips because its result is known. False does the work all the same, which changes no
-/// pixel: for measuring what the skip saves.
+/// Work that a frame skips because its result is known. If false, the work is done all the same, which
+/// changes no pixel and measures what the skip saves.
 struct Skips {
   bool sameCut = true;           ///< selects a cut only if something that it depends on has changed
   bool beyondVisibility = true;  ///< does not draw nodes beyond the weather's far cut
@@ -30,18 +30,19 @@ struct Skips {
   friend bool operator==(const Skips&, const Skips&) = default;
 };
 
-/// Everything that one image depends on.
+/// Holds everything that one image depends on.
 struct FrameRequest {
   double time = 0;  ///< seconds on the host's clock; precipitation and blur follow it
   GeodeticPosition eye;
   std::optional<Velocity> velocity;  ///< of the eye; precipitation streaks along it
   Wind wind;                         ///< precipitation streaks against it too
-  /// How far the wind has carried the air since the session began, metres, in earth-centred axes;
-  /// precipitation drifts with it.
+  /// The way of the air in the wind since the session began, metres, in earth-centred axes; precipitation
+  /// drifts with it.
   Vec3 airDrift;
   PrecipitationLook rain = kRainLook, snow = kSnowLook;
   PrecipitationForm precipitationForm = PrecipitationForm::bounded;
-  /// What falls while it fades in or out; unset: what the decision says. The published effect does not fade.
+  /// What falls while it fades in or out; if unset, what the decision says. The published effect does not
+  /// fade.
   std::optional<FadingPrecipitation> fading;
   Attitude attitude;  ///< of the view: aircraft, or aircraft and head
   ViewShape view;     ///< perspective, and the image's size
@@ -49,8 +50,8 @@ struct FrameRequest {
   /// is scaled to the image; 0: those of `view`.
   double imagePxPerRadian = 0;
   FrameDecision decision;
-  /// How coarsely it is drawn: LeverChain::drawn is all that the renderer reads of it, the other links say who
-  /// changed what.
+  /// The levers, step by step: LeverChain::drawn is all that the renderer reads of it, the other links say
+  /// who changed what.
   LeverChain levers;
   HoldDecision hold;  ///< the reason of the chain's last step
   CullingCase method = CullingCase::proposed;
@@ -79,7 +80,7 @@ struct FrameRequest {
   /// measurements and comparisons. If false, no frame waits, and what has not been read yet is drawn coarser.
   bool waitForPages = false;
   /// Makes OcclusionMethod::automatic use the horizon, so that counts depend on the requests alone and not on
-  /// a clock.
+  /// a clock. Without Skips::littleHidden, no horizon of another eye position is used either.
   bool reproducible = false;
   /// Makes readHorizon, and readDepthMap if a horizon is in use, report all that the horizon proves, not only
   /// what tests asked for. It costs a twentieth of the horizon.
@@ -93,7 +94,7 @@ struct FrameRequest {
 };
 
 /// Returns the distance from the eye, metres, beyond which this frame draws no terrain: the far
-/// distance of its levers. Infinite if nothing sets one, or if Skips::beyondVisibility is off.
+/// distance of its levers. It is infinite if nothing sets one, or if Skips::beyondVisibility is off.
 inline double farCutM(const FrameRequest& request) {
   return request.skips.beyondVisibility ? request.levers.drawn.farM : WeatherDecision::kUnlimited;
 }
@@ -111,7 +112,8 @@ struct FormsOfTerrain {
   bool tiles = false, patches = false, trees = false;
 };
 /// Returns the form in which a terrain is drawn: the one that the request asks for if the terrain has it,
-/// else patches or tiles, whichever it has. Unset if it has neither; static trees are drawn only on request.
+/// else patches or tiles, whichever it has. It is unset if it has neither; static trees are drawn only on
+/// request.
 std::optional<TerrainForm> formDrawn(const FrameRequest& request, const FormsOfTerrain& forms);
 
 /// Reports whether the request asks for static trees, if the terrain has them.

@@ -11,11 +11,11 @@
 #include "trimtab/frame/visible_set.h"
 #include "trimtab/preset/parameters.h"
 
-/// What drawing one image did, and what it cost.
+/// Declares what drawing one image did, and what it cost.
 namespace trimtab {
 
-/// How often each kind of work was done. A stage returns what it did in one frame; FrameResult::counters is
-/// the sum since the renderer was made.
+/// Counts how often each kind of work was done. A stage returns what it did in one frame;
+/// FrameResult::counters is the sum since the renderer was made.
 struct FrameCounters {
   std::uint64_t precipitationPasses = 0, blurPasses = 0, symbologyDraws = 0;
   std::uint64_t particlesDrawn = 0;      ///< drops and flakes of PrecipitationForm::bounded
@@ -36,7 +36,7 @@ struct FrameCounters {
   friend bool operator==(const FrameCounters&, const FrameCounters&) = default;
 };
 
-/// What looked for hidden ground in one frame, and what came of it.
+/// Says what looked for hidden ground in one frame, and what came of it.
 struct OcclusionResult {
   std::optional<OcclusionResolution>
       depthMap;          ///< size of the depth map that shaped `visible`; unset if none did
@@ -49,7 +49,7 @@ struct OcclusionResult {
   std::string note;
 };
 
-/// Everything but `counters` belongs to this frame alone.
+/// Holds what drawing one image did; everything but `counters` belongs to this frame alone.
 struct FrameResult : OcclusionResult {
   VisibleSet visible;
   FrameCost cost;  ///< milliseconds; `gpu` is NaN until the first timer query has returned

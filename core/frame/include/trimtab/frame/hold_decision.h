@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <string_view>
 
-/// What the arbiter of the frame's budget decided for one image. core/hold decides it, and a session puts it
-/// into the request.
+/// Declares what the arbiter of the frame's budget decided for one image. core/hold decides it, and a session
+/// puts it into the request.
 namespace trimtab {
 
-/// The levers that the arbiter may lower; withBudget() in frame_levers.h applies them. In the units of their
-/// rows in levers.h.
+/// The levers that the arbiter may lower; withBudget() in frame_levers.h applies them. They have the units of
+/// their rows in levers.h.
 struct HeldLevers {
   double errorPx = 0;        ///< allowed screen-space error
   double renderScale = 1;    ///< part of the image's width and height
@@ -30,7 +30,7 @@ struct StageTimes {
   friend bool operator==(const StageTimes&, const StageTimes&) = default;
 };
 
-/// Why the levers are where they are.
+/// Says why the levers are where they are.
 enum class HoldReason : std::uint8_t {
   off,           ///< hold.enabled is off
   no_budget,     ///< measure.budget_ms is not a number above 0
@@ -43,7 +43,6 @@ enum class HoldReason : std::uint8_t {
   not_trusted    ///< as asked for, because the last predictions were too far off
 };
 
-/// How many there are.
 inline constexpr std::size_t kHoldReasons = static_cast<std::size_t>(HoldReason::not_trusted) + 1;
 
 struct HoldDecision {
@@ -51,7 +50,7 @@ struct HoldDecision {
   HeldLevers asked, held;      ///< by preset and policy; by the arbiter
   StageTimes askedMs, heldMs;  ///< predicted for both
   double limitMs = 0;          ///< what a prediction may reach
-  double bandMs = 0;           ///< nine of ten images take no longer and no shorter than heldMs by so much
+  double bandMs = 0;           ///< half the 90 % band of a prediction, at the levers of the image before
 
   friend bool operator==(const HoldDecision&, const HoldDecision&) = default;
 };

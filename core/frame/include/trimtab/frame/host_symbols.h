@@ -22,7 +22,7 @@ struct HostSurface {
 };
 
 enum class HostShapeKind : std::uint8_t { lines, circles, text };
-/// How the points of lines are joined, by their CIGI numbers.
+/// Says how the points of lines are joined, by their CIGI numbers.
 enum class HostPrimitive : std::uint8_t {
   points,
   lines,
@@ -46,7 +46,7 @@ struct HostArc {
   friend bool operator==(const HostArc&, const HostArc&) = default;
 };
 
-/// What a symbol looks like. Only the members of its kind are used.
+/// Says what a symbol looks like. Only the members of its kind are used.
 struct HostShape {
   HostShapeKind kind = HostShapeKind::lines;
   HostPrimitive primitive = HostPrimitive::line_strip;  ///< of lines
@@ -81,7 +81,7 @@ struct HostSymbol {
   friend bool operator==(const HostSymbol& a, const HostSymbol& b);
 };
 
-/// All surfaces and symbols of a host, each sorted by its id.
+/// Holds all surfaces and symbols of a host, each sorted by its id.
 struct HostSymbols {
   static constexpr std::size_t kMostSymbols = 1024, kMostSurfaces = 64;
   /// A child has at most so many ancestors; beyond, it is not drawn.

@@ -35,7 +35,7 @@ struct DrawnEye {
   friend bool operator==(const DrawnEye&, const DrawnEye&) = default;
 };
 
-/// What document C's optimizer receives beside the state (section 3.2: "information about vertices and
+/// Holds what document C's optimizer receives beside the state (section 3.2: "information about vertices and
 /// FPS"). A part that is unset is unknown.
 struct DrawnLoad {
   std::optional<double> framesPerS;       ///< average of recent images
@@ -64,8 +64,8 @@ struct MotionBlur {
   friend bool operator==(const MotionBlur&, const MotionBlur&) = default;
 };
 
-/// What document C's optimizer decided for one state. Stacks are as the state leaves them: empty after they
-/// fired.
+/// Holds what document C's optimizer decided for one state. Stacks are as the state leaves them: empty after
+/// they fired.
 struct MotionDecision {
   MotionReason reason = MotionReason::off;
   bool fast = false;
@@ -83,7 +83,7 @@ struct MotionDecision {
   friend bool operator==(const MotionDecision&, const MotionDecision&) = default;
 };
 
-/// What the optimizer remembers between states.
+/// Holds what the optimizer remembers between states.
 struct MotionMemory {
   bool known = false;  ///< whether the next three hold a state's values
   double timeS = 0, headingDeg = 0, pitchDeg = 0;

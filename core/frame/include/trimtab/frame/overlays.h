@@ -1,6 +1,6 @@
 #pragma once
 
-/// What an image shows for the engineer, not for the pilot.
+/// Declares what an image shows for the engineer, not for the pilot.
 namespace trimtab {
 
 /// Overlays of one image.

@@ -7,7 +7,7 @@
 
 namespace trimtab {
 
-/// What the policy of a preset sets in a frame; a default one sets nothing.
+/// Holds what the policy of a preset sets in a frame; a default one sets nothing.
 struct PolicyOutcome {
   std::array<double, kLevers> value{};  ///< after rates and dead bands; only those in `moved` count
   std::uint32_t moved = 0;              ///< bit l: some rule may set lever l

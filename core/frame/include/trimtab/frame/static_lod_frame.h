@@ -6,7 +6,7 @@
 
 namespace trimtab {
 
-/// What a frame drew of the static trees, by a node's depth in its tree (0 at the root).
+/// Counts what a frame drew of the static trees, by a node's depth in its tree (0 at the root).
 struct StaticLodFrame {
   static constexpr std::size_t kDepths = 16;  ///< the last one counts all deeper nodes too
 

@@ -28,7 +28,7 @@ struct StaticLodIndex {
   std::vector<Box> bounds;       ///< of everything this node or any descendant draws, local frame
   std::vector<float> rmsErrorM;  ///< vertical RMS error against the source triangles; rises up the tree
   std::vector<float> maxErrorM;  ///< the worst vertical error; rises up the tree
-  /// How far borders of materials move sideways on airports, metres; 0 elsewhere. Rises up the tree.
+  /// Greatest sideways shift of the borders of materials on airports, metres; 0 elsewhere. Rises up the tree.
   std::vector<float> borderErrorM;
   std::vector<float> slopeMax;  ///< steepest triangle of this node or a descendant, rise over run
 

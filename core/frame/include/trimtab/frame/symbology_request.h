@@ -51,7 +51,7 @@ struct SymbologySetup {
 /// Collects the parameters of the symbols from those of a preset.
 SymbologySetup symbologySetup(const TuningParameters& parameters);
 
-/// Everything that the symbols of one image depend on, apart from the view.
+/// Holds everything that the symbols of one image depend on, apart from the view.
 struct SymbologyRequest {
   SymbologyState state;
   SymbologySetup setup;

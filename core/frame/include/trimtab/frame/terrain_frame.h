@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What a frame drew of each level, and the state of paging.
+/// Declares what a frame drew of each level, and the state of paging.
 namespace trimtab {
 
 /// Counts by level: 0 is the finest level of tiles, but the coarsest depth of patches.

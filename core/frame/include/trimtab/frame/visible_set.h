@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-/// Which nodes a frame draws, and for every node that it does not draw, why.
+/// Declares which nodes a frame draws, and for every node that it does not draw, why.
 namespace trimtab {
 
 enum class CullReason : std::uint8_t {
@@ -26,7 +26,7 @@ struct BorderMask {
   friend bool operator==(const BorderMask&, const BorderMask&) = default;
 };
 
-/// Which of a patch's triangulations is drawn; 0 is the finest.
+/// Says which of a patch's triangulations is drawn; 0 is the finest.
 struct PatchVariant {
   std::uint8_t number = 0;
   constexpr PatchVariant() = default;
@@ -43,8 +43,8 @@ struct TileDraw {
   bool bothSides = false;
 };
 
-/// What a view draws of a cut. Its size follows the cut and not the index: reasons are stored by place in the
-/// cut.
+/// Holds what a view draws of a cut. Its size follows the cut and not the index: reasons are stored by place
+/// in the cut.
 struct VisibleSet {
   std::vector<TileDraw> tiles;     ///< to draw, in the cut's order
   std::vector<CullReason> reason;  ///< one per node of the cut, in order

@@ -24,7 +24,7 @@
 /// 1993. Their benefit of an object is here the loss of the image, in the mean FLIP that leverage measures.
 namespace trimtab {
 
-/// Everything that an image's arbitration depends on beside its memory, as plain numbers.
+/// Holds everything that an image's arbitration depends on beside its memory, as plain numbers.
 struct HoldGiven {
   double timeS = 0;  ///< on the clock of the states
   double budgetMs = 0;
@@ -38,7 +38,7 @@ struct HoldGiven {
   CostCoefficients cost;
 };
 
-/// Where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale
+/// Says where the levers are. The allowed error is at what is asked for (0) or at a place of a fixed scale
 /// (kFirstErrorPx), so that it rests while what is asked for moves below it. The others are steps down from
 /// what is asked for.
 struct HoldSteps {
@@ -46,7 +46,7 @@ struct HoldSteps {
   friend bool operator==(const HoldSteps&, const HoldSteps&) = default;
 };
 
-/// What one image's arbitration remembers for the next.
+/// Holds what one image's arbitration remembers for the next.
 struct HoldMemory {
   HoldSteps steps;
   double timeS = 0;   ///< of the last image

@@ -12,7 +12,7 @@
 /// Predicts what an image costs on this machine, and learns it while flying.
 namespace trimtab {
 
-/// What the time of an image follows from.
+/// Holds what the time of an image follows from.
 struct FrameLoad {
   double triangles = 0;  ///< of the ground, drawn
   double groundMpx = 0;  ///< millions of pixels of the scene that show ground
@@ -26,7 +26,7 @@ struct FrameLoad {
 /// Standard deviations in the 90 % band of a normal distribution.
 inline constexpr double kNormalBand = 1.645;
 
-/// What the work of one clock costs, milliseconds a unit of its quantity.
+/// Holds what the work of one clock costs, milliseconds per unit of its quantity.
 ///
 /// A triangle costs perTriangle at any render scale. A software rasteriser also pays for the length of its
 /// edges in pixels: perTriangleSide times the side of the scene, which is the root of its millions of pixels.
@@ -41,7 +41,7 @@ struct ClockCoefficients {
 /// clock that takes longer for the load that they were asked for: processor or GPU.
 struct CostCoefficients : ClockCoefficients {
   std::optional<ClockCoefficients> second;  ///< the other clock, if there are two
-  double bandMs = 0;   ///< the 90 % band of the image that is about to be drawn, to either side
+  double bandMs = 0;   ///< half the 90 % band of an image with the load that was asked for
   double offMs = 0;    ///< the median by which the last predictions were off, to either side
   bool known = false;  ///< enough images were measured to predict one
 };
@@ -75,7 +75,7 @@ class ClockModel {
   double bandMs(const FrameLoad& load) const;
   /// Returns the median by which the last predictions were off, milliseconds.
   double offMs() const;
-  /// Below so many images a prediction would be little more than the first image's time.
+  /// A prediction from fewer images would be little more than the first image's time.
   static constexpr double kFewestImages = 8;
   bool known() const { return ground_.state().images >= kFewestImages; }
   std::size_t images() const { return images_; }
@@ -105,7 +105,7 @@ class ClockModel {
   };
   static constexpr double kLeastBand = 0.3, kMostBand = 10;
   State state() const;
-  /// Takes a saved state, with some distrust (LinearCost::restore).
+  /// Restores a saved state, with some distrust (LinearCost::restore).
   void restore(const State& state);
 
  private:

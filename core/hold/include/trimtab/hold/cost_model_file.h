@@ -24,7 +24,7 @@ Result<Done> writeCostModel(const std::filesystem::path& file, const std::string
 Result<CostModel::State> readCostModel(const std::filesystem::path& file, const std::string& machine);
 
 /// Returns where programs keep the model of a machine: a file of its own, named after it, in trimtab's folder
-/// of the user's caches (XDG_CACHE_HOME, else ~/.cache). Empty if there is neither.
+/// of the user's caches (XDG_CACHE_HOME, else ~/.cache). It is empty if there is neither.
 std::filesystem::path costModelFile(const std::string& machine);
 
 /// Gives the model what costModelFile() knows of this machine. A file that is missing is no finding; one that

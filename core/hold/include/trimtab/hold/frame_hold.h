@@ -14,13 +14,13 @@
 /// images cost. A session owns one.
 namespace trimtab {
 
-/// Where the eye of a coming image will be.
+/// Says where the eye of a coming image will be.
 struct ComingEye {
   GeodeticPosition position;
   Attitude attitude;
 };
 
-/// How a prediction made some images earlier came out, for docks and benchmarks.
+/// Says how a prediction made some images earlier came out, for docks and benchmarks.
 struct HoldOutcome {
   int imagesAhead = 0;
   double predictedTriangles = 0, triangles = 0;

@@ -8,7 +8,7 @@
 
 namespace trimtab {
 
-/// What can be measured, and so what can be learned. Times are milliseconds.
+/// Bounds what can be measured, and so what can be learned. Times are milliseconds.
 namespace cost_bounds {
 inline constexpr double kShortestMs = 1e-6, kLongestMs = 60e3;
 /// The range of a quantity that is not 0: a pixel in millions of them, and ten thousand million triangles by
@@ -119,8 +119,8 @@ class LinearCost {
     }
   };
   const State& state() const { return state_; }
-  /// Takes a state that was saved. Its uncertainty grows to at least a part of its coefficients, because the
-  /// machine may have changed since.
+  /// Restores a state that was saved. Its uncertainty grows to at least a part of its coefficients, because
+  /// the machine may have changed since.
   void restore(const State& state) {
     state_ = state;
     for (std::size_t i = 0; i < N; ++i) {
@@ -183,7 +183,8 @@ class LinearCost {
   void loosen(std::size_t i, double partOfScale) {
     const double step = partOfScale * state_.scale[i];
     state_.covariance[i][i] += step * step;
-    // Never less known than at the beginning. Scaling row and column keeps the matrix a covariance.
+    // A coefficient is never less certain than at the beginning. Scaling row and column keeps the matrix a
+    // covariance.
     const double part = state_.scale[i] / std::sqrt(state_.covariance[i][i]);
     if (!(part < 1)) return;
     for (std::size_t j = 0; j < N; ++j) state_.covariance[i][j] *= part, state_.covariance[j][i] *= part;

@@ -15,7 +15,7 @@ enum class ByteOrder { big, little };
 /// integer or a floating-point type of 1, 2, 4 or 8 bytes.
 namespace wire {
 
-/// The unsigned integer of N bytes.
+/// Names the unsigned integer of N bytes.
 template <std::size_t N>
 using Bits = std::conditional_t<
     N == 1, std::uint8_t,

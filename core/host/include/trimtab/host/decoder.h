@@ -52,10 +52,11 @@ struct HostStatistics {
   std::string lastFrom;
   std::string firstBadHex;     ///< of the first bad or truncated datagram, at most 256 bytes
   std::string firstBadReason;  ///< byte offset, expected, found
-  /// Why the newest of `bad`, of `notForUs`, and of the host's own datagrams led to no state: the sender, the
-  /// byte or field, what was expected, what was found, and after a semicolon what to do. toString() makes one
-  /// line of it. Unset if there was none; `newestUnused` also once a state has followed. What it names is no
-  /// ownship so far, an aircraft that is not ready, or a frame number that is repeated, late or implausible.
+  /// Reason why the newest of `bad`, of `notForUs`, and of the host's own datagrams led to no state: the
+  /// sender, the byte or field, what was expected, what was found, and after a semicolon what to do.
+  /// toString() makes one line of it. It is unset if there was none; `newestUnused` also once a state has
+  /// followed. That one names a missing ownship, an aircraft that is not ready, or a frame number that is
+  /// repeated, late or implausible.
   std::optional<Finding> newestBad, newestNotForUs, newestUnused;
   std::uint64_t jumps =
       0;  ///< position changes too large for any aircraft, or of more than a kilometre across a silence

@@ -9,7 +9,7 @@
 #include "trimtab/host/byte_order.h"
 
 /// Encodes what is sent: a host's packets for `feed play`, and an IG's Start of Frame for synchronous hosts.
-/// The layouts are in encoder.cpp beside each writer.
+/// The layouts are beside each writer, in encoder.cpp, native_fdm.cpp and symbol_encoder.cpp.
 namespace trimtab {
 
 /// Returns a FlightGear native-fdm packet of version 24, 408 bytes.
@@ -20,9 +20,10 @@ std::vector<std::byte> encodeNativeFdm(const AircraftState& state);
 /// falls, so a state with neither loses it.
 std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame,
                                       std::uint32_t lastIgFrame, ByteOrder order = ByteOrder::big);
-/// Returns the CIGI 3.3 packets that make these symbols: surfaces, definitions, and one Symbol Control each,
-/// parents first. They follow the message of encodeCigiHost. Points and circles beyond what a packet holds
-/// (29 and 9), and text beyond 235 bytes, are left out.
+/// Returns the CIGI 3.3 packets that make these symbols: all surfaces, then all definitions, then a Symbol
+/// Control each, so that a parent is defined before a child names it. They follow the message of
+/// encodeCigiHost. Points and circles beyond what a packet holds (29 and 9), and text beyond 235 bytes, are
+/// left out.
 std::vector<std::byte> encodeCigiSymbols(const HostSymbols& symbols, ByteOrder order = ByteOrder::big);
 /// Returns a small set of symbols as a host might send it, for demonstrations and tests: a radar scope whose
 /// sweep turns with the time, two contacts, a waypoint and a flashing weapon cue.

@@ -24,7 +24,8 @@ struct HeadLog {
   std::string name;
   std::vector<HeadSample> samples;  ///< times rise from 0
   bool repeats = false;             ///< whether it begins again at its end; if not, the last sample is held
-  /// In a longer step between samples the earlier one is held, because nothing says how the head moved.
+  /// During a longer step between samples the earlier sample is held, because nothing says how the head
+  /// moved.
   double gapS = std::numeric_limits<double>::infinity();
   std::size_t rowsLeftOut = 0;  ///< rows of the file that could not be used
 
@@ -34,7 +35,7 @@ struct HeadLog {
 /// The longest gap, in seconds, over which a recorded log is interpolated.
 inline constexpr double kHeadLogGapS = 0.25;
 
-/// What a reader does with rows that it cannot use.
+/// Says what a reader does with rows that it cannot use.
 enum class BadRows {
   refuse,    ///< the log is refused; findings name the first of them by line, column and value, and count the
              ///< rest

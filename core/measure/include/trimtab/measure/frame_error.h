@@ -5,14 +5,14 @@
 
 namespace trimtab {
 
-/// What one image lost against its reference: the same view without culling, at the finest levels, without
-/// blur and without an early far plane, in the same air. An error that was not measured is NaN.
+/// Says what one image lost against its reference: the same view without culling, at the finest levels,
+/// without blur and without an early far plane, in the same air. An error that was not measured is NaN.
 struct FrameError {
   static constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
   std::uint64_t wronglyCulledPixels =
       0;  ///< pixels that an image of the same levels without culling shows of a culled tile
-  /// How far, in pixels, the surfaces in the image are from those in the reference, and the other way round
+  /// Distance, in pixels, from the surfaces in the image to those in the reference, and the other way round
   /// (geometric_error.h).
   double geometricMaxPx = kNotMeasured, geometricMeanPx = kNotMeasured;
   double psnrDb = kNotMeasured;  ///< infinity if equal

@@ -12,11 +12,12 @@ struct ProcessorTime {
   std::uint64_t all = 0, busy = 0, own = 0;
 };
 
-/// Reads the line of all processors in the text of /proc/stat; `own` stays 0. Nothing if there is none.
+/// Reads the line of all processors in the text of /proc/stat; `own` stays 0. Returns nothing if there is
+/// none.
 std::optional<ProcessorTime> parseProcessorTime(std::string_view stat);
 
 /// Returns the share, 0 to 1, of the time of all processors between two readings that neither idled nor was
-/// this program's own. NaN if there is too little time between them to tell.
+/// this program's own. It is NaN if there is too little time between them to tell.
 double othersShare(const ProcessorTime& before, const ProcessorTime& after);
 
 /// Finds out whether the machine was busy while something was measured: what other programs took of its

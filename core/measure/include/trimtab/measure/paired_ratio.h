@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// What may be said of two settings that were measured in turns: how they compare, with an interval, and
+/// Says what may be said of two settings that were measured in turns: how they compare, with an interval, and
 /// whether they differ at all. Whatever compares times or errors asks here.
 namespace trimtab {
 
@@ -42,7 +42,7 @@ PairedDifference pairedDifference(std::span<const double> a, std::span<const dou
 /// too small for an interval.
 std::size_t medianIntervalRank(std::size_t n, double confidence = kConfidence);
 
-/// What an interval says of b beside a.
+/// Names what an interval says of b beside a.
 enum class MeasuredDifference {
   unknown,  ///< the pairs are too few to say anything
   none,     ///< the interval holds equality: what differs may be noise
@@ -52,9 +52,9 @@ enum class MeasuredDifference {
 MeasuredDifference differenceOf(const PairedRatio& ratio);
 MeasuredDifference differenceOf(const PairedDifference& difference);
 
-/// What frames say of the error of b beside that of a, frame by frame; smaller is better. Frames of equal
-/// error count only as such: identical images are `none`, and settings that differ in some frames are judged
-/// by those. An error is less or more only if the median of these frames and the mean of all agree.
+/// Returns what frames say of the error of b beside that of a, frame by frame; smaller is better. Frames of
+/// equal error count only as such: identical images are `none`, and settings that differ in some frames are
+/// judged by those. An error is less or more only if the median of these frames and the mean of all agree.
 MeasuredDifference errorDifference(std::span<const double> a, std::span<const double> b,
                                    double confidence = kConfidence);
 
@@ -62,8 +62,8 @@ MeasuredDifference errorDifference(std::span<const double> a, std::span<const do
 /// "too few pairs to tell", or "not measured".
 std::string inWords(const PairedRatio& ratio);
 
-/// Whether one setting is better than another in two quantities of which less is better: surely less in one,
-/// and not surely more in the other. The differences are those of the other setting beside the one.
+/// Reports whether one setting is better than another in two quantities of which less is better: surely less
+/// in one, and not surely more in the other. The differences are those of the other setting beside the one.
 bool isBetterInBoth(MeasuredDifference first, MeasuredDifference second);
 
 /// Returns which settings lie on the front of two quantities of which less is better, in the order of `x`.

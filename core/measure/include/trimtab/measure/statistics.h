@@ -22,7 +22,7 @@ double quantileOf(std::vector<double> samples, double fraction);
 /// is so sure. It assumes of the samples only that they are independent.
 std::size_t quantileRank(std::size_t n, double fraction, double tail);
 
-/// Where the quantile of what the samples were drawn from lies: it is at least `low`, and it is at most
+/// Says where the quantile of what the samples were drawn from lies: it is at least `low`, and it is at most
 /// `high`, each with a confidence of 95 %. An end that the samples are too few for is infinite; both are NaN
 /// without samples.
 struct QuantileBounds {

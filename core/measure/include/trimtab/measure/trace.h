@@ -17,7 +17,7 @@
 /// decided again and compared exactly.
 namespace trimtab {
 
-/// What a frame drew and left out.
+/// Counts what a frame drew and left out.
 struct TraceCounts {
   std::uint64_t triangles = 0, vertices = 0;
   std::uint64_t tilesDrawn = 0, culledFrustum = 0, culledOccluded = 0, culledBeyondVisibility = 0,

@@ -8,7 +8,7 @@
 
 namespace trimtab {
 
-/// What a policy decides from one set of signals.
+/// Holds what a policy decides from one set of signals.
 struct PolicyDecision {
   LeverValues target;              ///< NaN where no rule fires that sets the lever
   std::uint32_t unknownAsked = 0;  ///< bit s: an enabled rule asks for signal s, which nobody knows
@@ -65,7 +65,7 @@ class CompiledPolicy {
     double weight;            ///< 0 if the rule is switched off; it has no parts then and asks for nothing
   };
 
-  /// What a rule gives a lever.
+  /// Holds what a rule gives a lever.
   struct Setting {
     std::uint32_t rule;
     double value;

@@ -22,7 +22,7 @@ std::optional<RuleFormat> ruleFormatOf(const std::filesystem::path& file);
 
 }  // namespace trimtab
 
-/// What a rule file says, in either language, before it is held against what this program can do: a
+/// Holds what a rule file says, in either language, before it is compared with what this program can do: a
 /// Takagi-Sugeno system of order zero, whose outputs are weighted averages of constants.
 namespace trimtab::fuzzy_system {
 
@@ -74,9 +74,10 @@ struct System {
 /// line.
 Result<std::string> systemText(const System& system, RuleFormat format);
 
-/// Is the inverse. It refuses with file, line, expected and found, one finding each and a hundred at most,
-/// what is neither language's form or no system of order zero, and what is beyond 4,096 terms, 2,048 rules or
-/// 32,768 characters in a line. Shapes, numbers and the words of conditions are not looked at.
+/// Reads what systemText writes. It refuses with file, line, expected and found, one finding each and a
+/// hundred at most, what is neither language's form or no system of order zero, and what is beyond 4,096
+/// terms, 2,048 rules or 32,768 characters in a line. Shapes, numbers and the words of conditions are not
+/// looked at.
 Result<System> readSystem(std::string_view text, const std::string& where, RuleFormat format);
 
 /// One "INPUT is HEDGES TERM" of a condition.

@@ -13,7 +13,7 @@ namespace trimtab {
 /// the signals themselves do.
 class LeverDrive {
  public:
-  /// Everything that a step depends on, for traces.
+  /// Holds everything that a step depends on, for traces.
   struct State {
     LeverValues values = LeverValues::all(0);
     std::uint32_t moving = 0;  ///< bit l: lever l is on its way to a target

@@ -22,7 +22,7 @@ enum class Lever : std::uint8_t {
   render_scale
 };
 
-/// What a larger value does to the time of a frame.
+/// Says what a larger value does to the time of a frame.
 enum class CostOf : std::int8_t { falls = -1, either = 0, rises = 1 };
 
 struct LeverRow {

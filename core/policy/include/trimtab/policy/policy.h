@@ -12,7 +12,7 @@
 /// A policy as an engineer writes it: terms over signals, and rules that set levers.
 namespace trimtab {
 
-/// How the membership of a term follows from a signal x. The formulas are fuzzylite's.
+/// Says how the membership of a term follows from a signal x. The formulas are fuzzylite's.
 enum class TermShape : std::uint8_t {
   points,     ///< x1 y1 x2 y2 ...: the line between neighbouring points, constant beyond the ends
   triangle,   ///< a b c: 0 at a, 1 at b, 0 at c
@@ -34,7 +34,7 @@ struct PolicyTerm {
   friend bool operator==(const PolicyTerm&, const PolicyTerm&) = default;
 };
 
-/// What a rule sets if it fires.
+/// Says what a rule sets if it fires.
 struct LeverSetting {
   Lever lever = Lever::occlusion;
   double value = 0;
@@ -55,7 +55,7 @@ struct PolicyRule {
   friend bool operator==(const PolicyRule&, const PolicyRule&) = default;
 };
 
-/// How `and` and `or` combine memberships a and b.
+/// Says how `and` and `or` combine memberships a and b.
 enum class PolicyNorm : std::uint8_t {
   minimum,  ///< min(a, b) and max(a, b)
   product   ///< a b and a + b - a b

@@ -34,7 +34,7 @@ Result<std::string> policyFileText(const Policy& policy, const std::string& name
 /// compiles.
 Result<Policy> readPolicyFile(std::string_view text, const std::string& where, RuleFormat format);
 
-/// Are the same two functions for one language each.
+/// These are the same two functions for one language each.
 inline Result<std::string> toFuzzyLite(const Policy& policy, const std::string& name) {
   return policyFileText(policy, name, RuleFormat::fuzzylite);
 }

@@ -21,7 +21,7 @@ Result<Done> checkIsData(const std::filesystem::path& fileOrFolder);
 /// (stop_request.h).
 Result<std::string> readWhole(const std::filesystem::path& file,
                               std::size_t mostBytes = std::size_t{16} << 20);
-/// What a flight, a trace, a head log or a capture may have: they are read whole.
+/// A flight, a trace, a head log or a capture may have so many bytes: they are read whole.
 inline constexpr std::size_t kLargestRecording = std::size_t{4} << 30;
 
 /// Sees that a file may take this name: nothing has it, or a file that may be written.
@@ -46,9 +46,9 @@ auto withinMemory(const std::filesystem::path& file, const Read& read) -> declty
 
 /// Sees that files can be made in a folder, before long work whose result goes there.
 Result<Done> canWriteIn(const std::filesystem::path& folder);
-/// The same for the folder that a file is to be made in.
+/// Does the same for the folder that a file is to be made in.
 Result<Done> canMake(const std::filesystem::path& file);
-/// The same for a folder that is made where there is none.
+/// Does the same for a folder that is made if there is none.
 Result<Done> makeWritable(const std::filesystem::path& folder);
 
 /// Writes a file in a folder that only this program writes to. If it fails, half of the file may be left.
@@ -60,8 +60,8 @@ Result<Done> reachDisk(const std::filesystem::path& fileOrFolder);
 /// power cut there is the old file or the new one, never an empty one. If it fails, `unfinished` stays.
 Result<Done> putInPlace(const std::filesystem::path& unfinished, const std::filesystem::path& file);
 
-/// Has a write beyond the size that files may have (`ulimit -f`) fail like one on a full disk, instead of
-/// ending the program. For the first line of main().
+/// Makes a write beyond the size that files may have (`ulimit -f`) fail like one on a full disk, instead of
+/// ending the program. Call it in the first line of main(). For the first line of main().
 void failLargeWrites();
 
 }  // namespace trimtab

@@ -9,11 +9,11 @@
 /// everything else: key, label, range, help. To add a parameter, add field, row, use and test.
 namespace trimtab {
 
-/// How altitude becomes a membership (documents A and B, Table 1 and Eq. 1; they contradict each other).
+/// Says how altitude becomes a membership (documents A and B, Table 1 and Eq. 1; they contradict each other).
 enum class AltitudeReading { table, equation_a, equation_b };
-/// Which altitude the decision uses.
+/// Says which altitude the decision uses.
 enum class AltitudeReference { mean_sea_level, above_ground };
-/// How pitch becomes a membership: the line, or the rounded step that reproduces Table 1.
+/// Says how pitch becomes a membership: the line, or the rounded step that reproduces Table 1.
 enum class PitchReading { linear, rounded_step };
 /// How the two memberships become the total on the scale 0..2.
 enum class Combination { sum, twice_minimum };
@@ -26,31 +26,32 @@ enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };
 /// The form in which the terrain is drawn: tiles, patches, or the static trees of document E if it has them.
 enum class TerrainForm { levels, patches, static_trees };
-/// How a tree node's error becomes its minimum viewer distance.
+/// Says how a tree node's error becomes its minimum viewer distance.
 enum class StaticDistanceRule { picture, factor };
 enum class ErrorMeasure { rms, maximum, as_published };
 enum class HostProtocol { automatic, native_fdm, cigi3 };
 /// The columns of document C's results: before, with the mechanism, and with LOD scale restoration.
 enum class MotionControl { off, lod_scale_and_blur, with_restoration };
-/// Whose heading and pitch count: those of the view in the world, or of the head relative to the aircraft.
+/// Says whose heading and pitch count: those of the view in the world, or of the head relative to the
+/// aircraft.
 enum class MotionReference { line_of_sight, head };
-/// What counts as a frame of document C: a state that the host sends, or an image that is drawn.
+/// Says what counts as a frame of document C: a state that the host sends, or an image that is drawn.
 enum class MotionFrames { host_states, drawn };
-/// In what the length of a run of fast or slow frames is measured.
+/// Says in what the length of a run of fast or slow frames is measured.
 enum class MotionDwell { frames, milliseconds };
-/// Who sets precipitation and visibility.
+/// Says who sets precipitation and visibility.
 enum class WeatherSource { preset, host };
 /// Document D's densities of rain and snow.
 enum class WeatherStep { clear, rain_light, rain_medium, rain_heavy, snow_light, snow_medium, snow_heavy };
-/// Whether the visibility is the step's share of the clear-day distance or a typed number.
+/// Says whether the visibility is the step's share of the clear-day distance or a typed number.
 enum class VisibilitySource { steps, typed };
-/// What hides the distance: document D's fog, whose extinction is the same everywhere, or a layer of haze
-/// under a top, whose extinction follows from the meteorological optical range.
+/// Says what hides the distance: document D's fog, whose extinction is the same everywhere, or a layer of
+/// haze under a top, whose extinction follows from the meteorological optical range.
 enum class AirModel { uniform, layer };
-/// How the far plane is set (document D, the two columns of Table 1): not at all, by one ratio for all
+/// Says how the far plane is set (document D, the two columns of Table 1): not at all, by one ratio for all
 /// weather, or by Eq. (1). In a layer of haze the last is the safe far distance.
 enum class RatioMode { off, fixed, adaptive };
-/// How rain and snow are drawn: by osgParticle::PrecipitationEffect as document D does, or by our own
+/// Says how rain and snow are drawn: by osgParticle::PrecipitationEffect as document D does, or by our own
 /// particles, whose cost has a bound.
 enum class PrecipitationForm { effect, bounded };
 
@@ -155,7 +156,7 @@ struct WeatherStepParameters {
   Ratio farStretch{1};       ///< far plane over visibility; 1 cuts most, and calibration finds it
 };
 
-/// What a kind of precipitation looks like at any density.
+/// Says what a kind of precipitation looks like at any density.
 struct PrecipitationLook {
   Ratio size{1}, fallSpeed{1};      ///< multiples of what osgParticle::PrecipitationEffect gives the density
   Ratio red{1}, green{1}, blue{1};  ///< 0..1
@@ -219,7 +220,7 @@ struct HoldParameters {
   Ratio caution{1.41};     ///< how many of the model's 90 % bands stay below 1.1 of the budget
   Milliseconds calm{120};  ///< head-room must last so long before levers are restored
   Ratio lookAhead{5};      ///< the views of so many coming images are counted
-  // How far the arbiter may go.
+  // These limit the arbiter.
   Pixels errorMaximum{16};
   Ratio renderScaleMinimum{0.5};
   Ratio particlesMinimum{0.25};

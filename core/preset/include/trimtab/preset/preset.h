@@ -23,14 +23,14 @@ struct Preset {
   std::filesystem::path folder;  ///< where the file of a base is looked up; if empty, the working folder
 };
 
-/// Who made an export, when and with what.
+/// Says who made an export, when and with what.
 struct Provenance {
   std::string author, created, program, terrain, comment;  ///< created: ISO 8601 UTC
 };
 
 enum class ExportFormat { json, xml, ini };
 
-/// Returns what an export should tell of parameters whose effect depends on the machine, as one sentence;
+/// Returns what an export should report of parameters whose effect depends on the machine, as one sentence;
 /// empty if there is nothing. `culling.occlusion` = auto is one: which method serves is measured by each
 /// machine.
 std::string machineNote(const TuningParameters& parameters);

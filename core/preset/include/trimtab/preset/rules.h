@@ -7,8 +7,8 @@
 #include "trimtab/preset/parameters.h"
 #include "trimtab/preset/table.h"
 
-/// What must hold inside a curve, a band list or a rule base, and between parameters. These are constant
-/// expressions, so that the compiler checks the defaults.
+/// Declares what must hold inside a curve, a band list or a rule base, and between parameters. These are
+/// constant expressions, so that the compiler checks the defaults.
 namespace trimtab {
 
 constexpr bool isFinite(double value) {
@@ -89,7 +89,7 @@ constexpr bool someFieldOfViewIsLeft(const TuningParameters& p) {
 Findings rangeFindings(const TuningParameters& parameters);
 Findings ruleFindings(const TuningParameters& parameters);
 
-/// What a rule demands, as a sentence, and the parameter that its finding names.
+/// Says what a rule demands, as a sentence, and names the parameter of its finding.
 struct RuleText {
   std::string_view key, text;
 };

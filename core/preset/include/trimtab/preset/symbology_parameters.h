@@ -4,7 +4,7 @@
 
 namespace trimtab {
 
-/// To what symbols without a place in the world (tape, readouts) are fixed.
+/// Says to what symbols without a place in the world (tape, readouts) are fixed.
 enum class SymbologyFrame { head, aircraft };
 enum class SymbolColour { green, white, amber, cyan, magenta, red, yellow, black };
 

@@ -18,7 +18,7 @@ class CompiledPolicy;
 
 enum class Kind { scalar, flag, choice, curve, bands, lines };
 enum class Tier { basic, advanced };
-/// From when on a changed parameter counts.
+/// Says from when on a changed parameter counts.
 enum class Effect { next_frame, resize, host };
 
 /// A value of any row: scalar, flag, index into the row's choices, curve, bands or lines of text.

@@ -29,7 +29,7 @@ class Unfinished {
   Unfinished(Unfinished&&) noexcept;
   Unfinished& operator=(Unfinished&&) = delete;
 
-  /// A file, open for reading and writing for as long as this object lives; -1 of a folder.
+  /// Returns the file, open for reading and writing for as long as this object lives; -1 of a folder.
   int handle() const;
   /// Opens the same file by name; a file that has none is found among this process's handles.
   const std::filesystem::path& path() const;
@@ -60,7 +60,7 @@ Result<Done> removeOwn(const std::filesystem::path& folder, IsOwn isOwn,
 
 /// Marks an existing folder as this program's; nothing happens to one that is marked.
 Result<Done> markFolder(const std::filesystem::path& folder);
-/// Whether a folder was marked so. Its mark is the file `trimtab.mark` in it.
+/// Reports whether a folder was marked so. Its mark is the file `trimtab.mark` in it.
 bool isMarked(const std::filesystem::path& folder);
 inline constexpr const char* kMarkName = "trimtab.mark";
 

@@ -4,7 +4,7 @@
 
 namespace trimtab::scene {
 
-/// What building ahead did (Renderer::buildAhead).
+/// Says what building ahead did (Renderer::buildAhead).
 struct BuiltAhead {
   std::size_t built = 0;  ///< meshes
   std::size_t left = 0;   ///< names of nodes without a mesh, for which there was no time

@@ -23,7 +23,7 @@ namespace trimtab::scene {
 /// that is larger.
 FrameRequest referenceOf(const FrameRequest& request);
 
-/// Both images of a measurement, row 0 at the bottom.
+/// Holds both images of a measurement, row 0 at the bottom.
 struct ErrorPictures {
   int widthPx = 0, heightPx = 0;
   std::vector<std::uint8_t> reference, ours;  ///< RGBA

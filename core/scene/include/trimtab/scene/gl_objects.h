@@ -4,7 +4,7 @@
 
 namespace trimtab::scene {
 
-/// How many objects of each kind a GL context holds, whoever made them.
+/// Counts the objects of each kind that a GL context holds, whoever made them.
 struct GlObjects {
   std::size_t buffers = 0, textures = 0, framebuffers = 0, renderbuffers = 0, vertexArrays = 0, queries = 0,
               programs = 0, shaders = 0;

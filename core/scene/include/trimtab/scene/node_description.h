@@ -9,7 +9,7 @@
 #include "trimtab/frame/terrain_index.h"
 #include "trimtab/terrain/format/database.h"
 
-/// What a person wants to know about one node of the terrain that they picked in the image.
+/// Declares what a person wants to know about one node of the terrain that they picked in the image.
 namespace trimtab::scene {
 
 struct NodeDescription {

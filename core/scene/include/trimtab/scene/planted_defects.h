@@ -8,7 +8,7 @@ namespace trimtab::scene {
 class Renderer;
 class ErrorMeter;
 
-/// Mistakes made on purpose, so that a test can see that it finds them. For tests only.
+/// Mistakes made on purpose, so that a test can see that it finds them. It serves tests only.
 struct Defects {
   double loweringScale =
       1;  ///< share of the lowering that the proof in occlusion.h asks for; below 1 loses pixels

@@ -19,7 +19,7 @@ namespace trimtab::scene {
 
 /// Returns the form in which a terrain is drawn: the one that the request asks for if the terrain has it,
 /// else tiles or patches, whichever it has. Static trees are drawn only if they are asked for (asksForTrees).
-/// Unset if `database` is null or has no form to draw.
+/// It is unset if `database` is null or has no form to draw.
 std::optional<TerrainForm> formDrawn(const FrameRequest& request, const terrain::Database* database);
 
 struct Defects;
@@ -57,7 +57,7 @@ class Renderer {
   FrameResult draw(const FrameRequest& request, unsigned fbo);
 
   /// Builds and uploads meshes that coming images will draw, so that those do not take the time: in order, of
-  /// the nodes that lack one, as Session::nodesAhead names them. It stops after `withinMs` (milliseconds) and
+  /// the nodes that miss one, as Session::nodesAhead names them. It stops after `withinMs` (milliseconds) and
   /// finishes the mesh that it has begun: a tile's takes about 0.1 ms, that of a tile of static trees takes
   /// milliseconds. Call it between images, with the context current. It changes no image. Patches are read
   /// ahead by draw().
@@ -75,8 +75,8 @@ class Renderer {
   /// Returns the horizon with which the last frame culled, as `samples` elevations, degrees above the level
   /// plane of the terrain's local frame. Each belongs to the middle of one of `samples` equal sectors, which
   /// begin at south and go on to west. NaN means that no ground is known there. Unless
-  /// FrameRequest::wholeHorizon is set, the horizon is only as high as the tests of nodes needed. Empty if no
-  /// horizon served, or if `samples` is not above 0.
+  /// FrameRequest::wholeHorizon is set, the horizon is only as high as the tests of nodes needed. It is empty
+  /// if no horizon served, or if `samples` is not above 0.
   std::vector<float> readHorizon(int samples);
   /// Returns the first pages of patches, and the first tiles of the ground's colours, that could not be read
   /// since the terrain was set. The terrain stays coarser there. PagingFrame::failed counts all of them.
@@ -85,9 +85,9 @@ class Renderer {
   void forgetPictures();
   static constexpr std::uint32_t kNoNode = 0xffffffffu;  ///< a pixel of readNodes() that shows no node
   /// Returns for each pixel of the last image the number of the node that it shows, or kNoNode where it is
-  /// sky; row 0 is at the bottom. Empty if nothing was drawn since initialize() or setTerrain(). It draws the
-  /// same vertices once more, in the same order with the same depth test, at the image's size at any render
-  /// scale. What only an overlay draws (lines, edges) belongs to no node.
+  /// sky; row 0 is at the bottom. It is empty if nothing was drawn since initialize() or setTerrain(). It
+  /// draws the same vertices once more, in the same order with the same depth test, at the image's size at
+  /// any render scale. What only an overlay draws (lines, edges) belongs to no node.
   ///
   /// With `unculled`, it returns which node would show if nothing of the same cut had been culled, as in the
   /// image of CullingCase::none, except for nodes that are far outside the view (nearView in node_pass.h).

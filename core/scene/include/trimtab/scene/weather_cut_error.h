@@ -5,7 +5,7 @@
 
 namespace trimtab::scene {
 
-/// How the weather's far cut changed an image.
+/// Says how the weather's far cut changed an image.
 struct CutError {
   std::size_t pixels = 0;   ///< in the image
   std::size_t changed = 0;  ///< pixels that differ in any channel
@@ -13,7 +13,7 @@ struct CutError {
 };
 
 /// Draws the request without and with its far cut and compares the two images. `fbo` keeps the second one.
-/// The context must be current. For measurements: it costs two frames.
+/// The context must be current. It serves measurements: it costs two frames.
 CutError cutError(Renderer& renderer, const FrameRequest& request, unsigned fbo);
 
 }  // namespace trimtab::scene

@@ -7,8 +7,8 @@
 
 namespace trimtab {
 
-/// How far the wind has carried the air around an eye. A sum over time, so that a wind that changes moves
-/// what falls on from where it is.
+/// Sums up how far the wind has carried the air around an eye. A sum over time, so that a wind that changes
+/// moves what falls on from where it is.
 class AirDrift {
  public:
   /// Adds the wind at `eye` over the time, in seconds, since the latest time so far. Time that goes back by

@@ -25,10 +25,10 @@ class LatencyMeter {
   /// Remembers a packet that no image shows yet. A time that is not a number is a state that no packet
   /// brought.
   void arrived(double kernelTime);
-  /// The image that is requested at `now` shows every packet so far.
+  /// Notes that the image that is requested at `now` shows every packet so far.
   void requested(double now);
   void finished(double now);
-  /// No image will show what has arrived.
+  /// Notes that no image will show what has arrived.
   void dropped();
   const Latency& latency() const { return latency_; }
 

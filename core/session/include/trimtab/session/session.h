@@ -54,7 +54,7 @@ class Session {
   /// Sets what the arbiter of the budget counts the triangles of coming views in; see FrameHold::setIndex.
   void setLoadIndex(std::shared_ptr<const LoadIndex> index) { budget_.hold.setIndex(std::move(index)); }
 
-  // Where states come from. Each call decides each of its states exactly once, in order.
+  // States come from one of these. Each call decides each of its states exactly once, in order.
 
   /// Receives packets, in order of arrival. If head motion counts images (MotionFrames::drawn), states only
   /// move the eye, and `request` decides the state that it draws.
@@ -109,8 +109,8 @@ class Session {
   // Images.
 
   /// Reports whether an image at `now` would differ from the last one requested: because of a packet, an
-  /// edit, an eye that moves on between packets, or a blur that has not ended. False while the host is silent
-  /// and nothing is edited.
+  /// edit, an eye that moves on between packets, or a blur that has not ended. It is false while the host is
+  /// silent and nothing is edited.
   bool needsPicture(double now) const;
   /// Reports whether images are due even if nothing moves: the last one was blurred, or head motion counts
   /// images and has yet to see that the eye rests.
@@ -189,7 +189,7 @@ class Session {
   HeadInput head_;
   std::optional<double> blurPicturedAt_;  ///< when the first image of the last decision was requested
   bool blurDrawn_ = false;
-  /// What moves and falls, up to the last image requested.
+  /// Holds what moves and falls, up to the last image requested.
   struct Air {
     AirDrift drift;
     PrecipitationFade fade;
@@ -201,7 +201,7 @@ class Session {
     std::optional<SignalValues> watched;  ///< if unset, nobody watches
   };
   Signals signals_;
-  /// What holds the budget.
+  /// Holds what keeps the budget.
   struct Budget {
     FrameHold hold;
     MotionAhead ahead;                     ///< up to the last image requested

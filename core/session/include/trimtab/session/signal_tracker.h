@@ -42,7 +42,7 @@ class SignalTracker {
   void restart() { *this = {}; }
 
  private:
-  /// What an image is seen from and through, where a rest began.
+  /// Holds what an image is seen from and through, where a rest began.
   struct View {
     GeodeticPosition eye;
     Attitude sight;
@@ -50,7 +50,7 @@ class SignalTracker {
   };
   static bool restsAt(const View& view, const View& now);
   void filter(Signal signal, double value, double dt);
-  /// What keeps a signal from swinging with a lever that follows it.
+  /// Keeps a signal from swinging with a lever that follows it.
   struct Loop {
     int goes = 0;   ///< -1 or 1, the way of the last change
     int turns = 0;  ///< of that way while the view rests

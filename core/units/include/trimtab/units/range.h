@@ -2,7 +2,7 @@
 
 namespace trimtab {
 
-/// From `low` to `high`, both included.
+/// Reaches from `low` to `high`, both included.
 struct Range {
   double low = 0, high = 0;
 };

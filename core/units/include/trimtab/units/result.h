@@ -30,7 +30,7 @@ bool hasError(const Findings& findings);
 std::string toString(const Finding& finding);
 std::string toString(const Findings& findings);
 
-/// A value, or all the reasons why there is none. A value may come with notes and warnings.
+/// Holds a value, or all the reasons why there is none. A value may come with notes and warnings.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -119,7 +119,7 @@ TRIMTAB_INLINE bool any(Ints mask) {
   return bitsOfMask(mask) != 0;
 }
 
-/// 1 / x to 3e-7 of it.
+/// Returns 1 / x to 3e-7 of it.
 TRIMTAB_INLINE Floats reciprocal(Floats x) {
 #if defined(TRIMTAB_AVX512)
   const Floats r = _mm512_maskz_rcp14_ps(kEvery, x);
@@ -129,13 +129,13 @@ TRIMTAB_INLINE Floats reciprocal(Floats x) {
 #endif
 }
 
-// For vectors of any width. Masks are vectors of integers whose lanes are 0 or -1.
+// These functions serve vectors of any width. Masks are vectors of integers whose lanes are 0 or -1.
 
 template <class V, class Mask>
 TRIMTAB_INLINE V choose(Mask mask, V yes, V no) {
   return reinterpret_cast<V>((mask & reinterpret_cast<Mask>(yes)) | (~mask & reinterpret_cast<Mask>(no)));
 }
-/// All lanes alike. Nothing is added, so that a zero keeps its sign.
+/// Returns a vector whose lanes are all alike. Nothing is added, so that a zero keeps its sign.
 template <class V, class Number>
 TRIMTAB_INLINE V spread(Number v) {
   return v - V{};

@@ -25,7 +25,7 @@ struct PlacedRaster {
   OGRSpatialReference crs;            ///< horizontal; axes as easting, northing or longitude, latitude
 };
 
-/// What a raster is opened for; `heights` refuses images.
+/// Says what a raster is opened for; `heights` refuses images.
 enum class RasterKind { any, heights };
 /// Opens a raster and reads its georeference. If it names no CRS, degrees are assumed to be WGS84, with a
 /// note.

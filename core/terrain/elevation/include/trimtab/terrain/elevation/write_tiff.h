@@ -18,10 +18,10 @@ using TiffRows = std::function<bool(std::uint32_t first, std::uint32_t count, st
 /// when it is complete; if writing fails or is cancelled, no file is left.
 Result<Done> writeTiff(const std::filesystem::path& tif, const PostGrid& posts, const TiffRows& rows);
 
-/// As TiffRows, for red, green and blue of each pixel.
+/// Does what TiffRows does, for red, green and blue of each pixel.
 using TiffPixels = std::function<bool(std::uint32_t first, std::uint32_t count, std::span<std::uint8_t> rgb)>;
-/// Writes a picture whose pixels' centres are the posts, as a tiled GeoTIFF with JPEG compression, in the
-/// same way.
+/// Writes an image whose pixels' centres are the posts, as a tiled GeoTIFF with JPEG compression, in the same
+/// way.
 Result<Done> writePicture(const std::filesystem::path& tif, const PostGrid& pixels, const TiffPixels& rows);
 
 }  // namespace trimtab::terrain

@@ -69,7 +69,7 @@ class CheckedRows {
   std::uint32_t rows() const { return rows_; }
   /// Checks every block that was not found damaged before.
   void checkAll() const;
-  /// Returns the damage found so far, at most 20 findings. Thread-safe.
+  /// Returns the damage found so far, at most 20 findings. It is thread-safe.
   Findings damage() const;
 
  private:
@@ -78,7 +78,7 @@ class CheckedRows {
     std::shared_ptr<const Block> block;
     bool damaged = false;
   };
-  /// Null if the block is damaged. Thread-safe.
+  /// Returns a block, or null if it is damaged. It is thread-safe.
   std::shared_ptr<const Block> block(std::uint32_t number) const;
   /// Reads and checks; null if the bytes are not what was written, which is then a finding.
   std::shared_ptr<const Block> readBlock(std::uint32_t number, Findings& findings) const;

@@ -65,7 +65,7 @@ class GroundPyramid {
 /// Opens what buildGround wrote (trimtab/terrain/ground/build.h) for these posts.
 Result<std::shared_ptr<const GroundPyramid>> openGround(const std::filesystem::path& file,
                                                         const PostGrid& posts);
-/// The same from a page file that is open; `file` is its name for messages.
+/// Does the same from a page file that is open; `file` is its name for messages.
 Result<std::shared_ptr<const GroundPyramid>> openGround(std::shared_ptr<const PageFile> pages,
                                                         const std::filesystem::path& file,
                                                         const PostGrid& posts);

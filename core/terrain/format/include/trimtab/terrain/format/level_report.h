@@ -19,7 +19,7 @@ struct LevelReport {
 
 /// Returns one report per depth, the coarsest first.
 std::vector<LevelReport> levelsOf(const PatchTerrain& patches);
-/// Returns one report per level, the finest first. Of the errors only maxErrorM is known.
+/// Returns one report per level, the finest first. Among the errors, only maxErrorM is known.
 std::vector<LevelReport> levelsOf(const TerrainIndex& tiles);
 
 }  // namespace trimtab::terrain

@@ -30,7 +30,7 @@ class Pager {
   /// failed. Use it for images that must be the same however slow the disk is.
   virtual void waitFor(std::span<const std::uint32_t> pages) = 0;
 
-  /// What happened since the start.
+  /// Counts what happened since the start.
   struct Counters {
     std::uint64_t pagesRead = 0, bytesRead = 0, failed = 0;
     std::size_t waiting = 0;  ///< pages that are wanted, not taken yet, and have not failed

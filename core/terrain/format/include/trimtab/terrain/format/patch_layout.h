@@ -14,12 +14,12 @@ namespace trimtab::terrain {
 /// needs 1.34 times the triangles of an unconstrained mesh instead of 1.44, and the index is four times as
 /// long.
 inline constexpr std::uint32_t kFineLeafCells = 16, kCoarseLeafCells = 32;
-/// As many squares as a country of 13,000 x 11,000 posts has of the coarser side: 1.2 million patches.
+/// A country of 13,000 x 11,000 posts has so many squares of the coarser side: 1.2 million patches.
 inline constexpr std::uint64_t kMostFineSquares = 150'000;
 /// Returns the finer side if the grid has no more than `mostFine` of its squares, else the coarser one.
 std::uint32_t leafCellsOf(const PostGrid& posts, std::uint64_t mostFine = kMostFineSquares);
 
-/// How many meshes a patch has, and how many octaves their tolerances are apart.
+/// Says how many meshes a patch has, and how many octaves their tolerances are apart.
 struct PatchVariants {
   std::size_t count;
   double octaves;

@@ -37,7 +37,7 @@ struct PatchEdge {
 };
 
 /// Returns the edges of a patch anticlockwise, cut off at the last post: a convex polygon with posts as
-/// corners. Empty if the patch lies outside the posts.
+/// corners. It is empty if the patch lies outside the posts.
 std::vector<PatchEdge> patchEdges(const PatchIndex& index, const PatchPlace& place);
 
 /// Returns the parent: of a half the quarter that it came from (its pair must be above 0), of a quarter its

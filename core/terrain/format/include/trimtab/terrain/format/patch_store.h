@@ -14,14 +14,15 @@
 /// Patches on disk: a page file with a blob a page, one for what the index measured and one for the facts.
 namespace trimtab::terrain {
 
-/// A page as bytes: a vertex is its post, its height in 1/256 m, its normal; places follow from the geometry,
-/// exactly (what does not is listed). Vertices and triangles go through meshoptimizer's codecs: vertices are
-/// put in the order of their first use, triangles in one that is near to strips. Of a coarser variant, which
-/// has four in five of its triangles from the finer one, only the others are; bits tell where they stand.
+/// Returns a page as bytes: a vertex is its post, its height in 1/256 m, its normal; places follow from the
+/// geometry, exactly (what does not is listed). Vertices and triangles go through meshoptimizer's codecs:
+/// vertices are put in the order of their first use, triangles in one that is near to strips. Of a coarser
+/// variant, which has four in five of its triangles from the finer one, only the others are; bits tell where
+/// they stand.
 std::vector<std::byte> encodePage(const PatchPage& page, const PatchIndex& index,
                                   const PostGeometry& geometry);
-/// The page again: the same triangles, places and normals. `where` names the bytes in findings. Whatever the
-/// bytes are, all indices of the result are good for it, and its posts are of the grid.
+/// Returns the page again: the same triangles, places and normals. `where` names the bytes in findings.
+/// Whatever the bytes are, all indices of the result are good for it, and its posts are of the grid.
 Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex& index, std::uint32_t page,
                              const PostGeometry& geometry, const std::string& where);
 

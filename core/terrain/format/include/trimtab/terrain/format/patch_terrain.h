@@ -23,7 +23,7 @@ struct PatchVertex {
 };
 static_assert(sizeof(PatchVertex) == 20);
 
-/// What a variant has where the next finer one has a triangle: nothing there, the same triangle (it is
+/// Says what a variant has where the next finer one has a triangle: nothing there, the same triangle (it is
 /// inherited), or another one in its place.
 enum class Heir : std::uint8_t { none, same, other };
 
@@ -41,7 +41,7 @@ struct PatchMesh {
   std::vector<Heir> heirs;
 };
 
-/// What is known about a patch and not needed for selecting it; errors in metres.
+/// Holds what is known about a patch and not needed for selecting it; errors in metres.
 struct PatchFacts {
   float lowestM = 0, highestM = 0;     ///< heights of the source posts under it
   std::uint32_t bytes = 0;             ///< in its page

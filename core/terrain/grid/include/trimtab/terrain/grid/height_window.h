@@ -14,7 +14,7 @@ struct PostWindow {
   friend bool operator==(const PostWindow&, const PostWindow&) = default;
 };
 
-/// Heights of a grid that may be on disk, metres, with all voids filled. Thread-safe.
+/// Heights of a grid that may be on disk, metres, with all voids filled. It is thread-safe.
 class HeightSource {
  public:
   virtual ~HeightSource() = default;

@@ -80,7 +80,7 @@ inline bool forEachParallel(std::uint32_t count,
       others.emplace_back(help);
     }
   } catch (const std::system_error&) {
-    // Fewer threads do it too.
+    // Fewer threads can do it too.
     const std::lock_guard lock(mutex);
     --working;
   }

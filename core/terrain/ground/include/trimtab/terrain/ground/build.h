@@ -18,8 +18,8 @@ namespace trimtab::terrain {
 
 class GroundTriangles;
 
-/// What the ground is coloured from: images first; where none has a colour, the materials of the triangles;
-/// and where there are none either, land cover by height, slope and latitude.
+/// Says what the ground is coloured from: images first; where none has a colour, the materials of the
+/// triangles; and where there are none either, land cover by height, slope and latitude.
 struct GroundSources {
   const HeightSource* heights = nullptr;
   const PostGeometry* geometry = nullptr;
@@ -35,7 +35,7 @@ struct GroundSources {
   std::size_t memory = std::size_t{512} << 20;
 };
 
-/// How many of the finest texels each image covers.
+/// Counts how many of the finest texels each image covers.
 struct GroundCover {
   std::uint64_t texels = 0;            ///< of the whole ground
   std::vector<std::uint64_t> covered;  ///< one count per image, for the whole ground or for a share

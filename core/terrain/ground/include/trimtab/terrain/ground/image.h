@@ -9,7 +9,7 @@
 
 namespace trimtab::terrain {
 
-/// A georeferenced image, read a window at a time. Thread-safe.
+/// A georeferenced image, read a window at a time. It is thread-safe.
 class GroundImage {
  public:
   /// Opens an image. Findings include notes about what was assumed.

@@ -21,8 +21,8 @@ struct GroundTriangle {
 class GroundTriangles {
  public:
   virtual ~GroundTriangles() = default;
-  /// Returns all triangles that overlap a rectangle, and perhaps others; later ones are painted on top.
-  /// Thread-safe.
+  /// Returns all triangles that overlap a rectangle, and perhaps others; later ones are painted on top. It is
+  /// thread-safe.
   virtual Result<std::vector<GroundTriangle>> over(const Rectangle& degrees) const = 0;
 };
 

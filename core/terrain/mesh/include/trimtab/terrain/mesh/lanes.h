@@ -110,7 +110,7 @@ TRIMTAB_INLINE void forEachFour(const Triangulation::Vertex* const corner[3], co
     const auto edge = [&](const Triangulation::Vertex& from, const Triangulation::Vertex& to, bool border)
         __attribute__((always_inline)) {
       const std::int32_t dx = to.x - from.x, dy = to.y - from.y;
-      // Which way edges lead cannot be guessed: without branches.
+      // The direction of edges cannot be guessed, so this has no branches.
       constexpr double kLess[2] = {0.5, 0.0};
       const double less = kLess[(!border) & ((dy < 0) | ((dy == 0) & (dx > 0)))];
       return Edge{

@@ -53,7 +53,7 @@ class BlendedRows {
   std::uint32_t firstElevationRow_ = 0;
   std::deque<Row> rows_;
   std::uint32_t firstRow_ = 0;
-  // How many rows from the south each step has done.
+  // The number of rows from the south that each step has done.
   std::uint32_t read_ = 0, bordered_ = 0, spread_ = 0, relaxing_ = 0, finished_ = 0;
 };
 

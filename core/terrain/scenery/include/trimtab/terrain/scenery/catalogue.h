@@ -21,8 +21,8 @@ struct PlacedMesh {
   std::vector<Vec3> places;  ///< per vertex: longitude and latitude in degrees, height in metres
 };
 
-/// All tiles of some scenery. It keeps as many in memory as its budget allows, and reads or makes the others
-/// again when they are needed.
+/// Holds all tiles of some scenery. It keeps as many in memory as its budget allows, and reads or makes the
+/// others again when they are needed.
 class SceneryCatalogue {
  public:
   struct Tile {

@@ -7,8 +7,8 @@
 
 #include "trimtab/terrain/format/static_lod_terrain.h"
 
-/// How well the triangles of a level can be put into strips and fans ("fanification"), and how often a
-/// cache of transformed vertices misses: statistics that document E asks for.
+/// Measures how well the triangles of a level can be put into strips and fans ("fanification"), and how often
+/// a cache of transformed vertices misses: statistics that document E asks for.
 namespace trimtab::terrain {
 
 /// A strip or a fan: its vertices, two more than its triangles.

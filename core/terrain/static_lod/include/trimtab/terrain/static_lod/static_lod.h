@@ -39,7 +39,7 @@ Result<std::shared_ptr<const StaticLodTerrain>> buildStaticLod(std::span<const S
                                                                const LocalFrame& frame,
                                                                const StaticLodOptions& options);
 
-/// What n says about leaves. Document E's rule is the first, but the 4 levels of its example, n = 2000,
+/// Says what n means for leaves. Document E's rule is the first, but the 4 levels of its example, n = 2000,
 /// follow from the second.
 enum class LeafReading {
   atMost,   ///< leaves hold n/2 to n triangles, as the builder splits
@@ -57,8 +57,8 @@ struct StaticLodLimits {
 StaticLodLimits staticLodLimits(std::uint64_t triangles, std::uint32_t trianglesPerNode,
                                 LeafReading reading = LeafReading::atMost);
 
-/// What the builder's splits at the median give under a reading: every split halves, so that the tree is
-/// complete.
+/// Holds what the builder's splits at the median give under a reading: every split halves, so that the tree
+/// is complete.
 struct HalvedTree {
   std::uint64_t leaves = 1, largestLeaf = 0;
   std::uint32_t levels = 1;  ///< roots and leaves included, as document E counts
