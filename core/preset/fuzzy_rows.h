@@ -106,9 +106,9 @@ inline constexpr std::array kFuzzyRows{
         {.key = "fuzzy.combination",
          .label = "Combination",
          .help = "How the two memberships become the total, 0 to 2. With the sum, low altitude alone keeps "
-                 "the scheme "
-                 "dynamic; twice the smaller needs both to be high; the rule base is Eq. 2.",
-         .source = "A, B: Table 2, Eq. 2"}),
+                 "the scheme dynamic; twice the smaller needs both to be high. Rules of the policy may set "
+                 "the total instead (lever Occlusion), as Eq. 2 does.",
+         .source = "A, B: Table 2"}),
     row<&TuningParameters::scheme, &SchemeParameters::hysteresis>(
         {.key = "fuzzy.hysteresis",
          .label = "Hysteresis",

@@ -7,7 +7,7 @@
 #include "trimtab/preset/parameters.h"
 #include "trimtab/preset/table.h"
 
-/// Declares what must hold inside a curve, a band list or a rule base, and between parameters. These are
+/// Declares what must hold inside a curve or a band list, and between parameters. These are
 /// constant expressions, so that the compiler checks the defaults.
 namespace trimtab {
 
