@@ -51,7 +51,7 @@ PreparedTerrain PatchDrawer::prepare(const FrameInProgress& frame) {
   const bool read = std::exchange(pagesRead_, paged.paging.pagesRead) != paged.paging.pagesRead;
   frame.clock.lap(read ? &FrameCost::page : &FrameCost::select);
   occlusion_.begin(r, eye, false);
-  frame.clock.lap(occlusion_.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
+  frame.clock.lap(occlusion_.serves(OcclusionMethod::horizon) ? &FrameCost::occlusion : &FrameCost::select);
   if (findVisible(occlusion_, culling_.cut(), visible_)) {
     visible_.vertices = 0;
     for (const TileDraw& patch : visible_.tiles) visible_.vertices += terrain_->facts()[patch.node].vertices;

@@ -41,7 +41,7 @@ PreparedTerrain TileDrawer::prepare(const FrameInProgress& frame) {
   const bool cutSelected = selectCut(r);
   frame.clock.lap(&FrameCost::select);
   occlusion_.begin(r, eye_, true);
-  frame.clock.lap(occlusion_.horizonServes() ? &FrameCost::occlusion : &FrameCost::select);
+  frame.clock.lap(occlusion_.serves(OcclusionMethod::horizon) ? &FrameCost::occlusion : &FrameCost::select);
   if (findVisible(occlusion_, cut_, visible_)) visible_.vertices = tileVertices(visible_);
   const std::size_t built = uploadShown();
   prepared.occlusion = occlusion_.result();
