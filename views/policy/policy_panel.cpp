@@ -345,7 +345,7 @@ void PolicyPanel::showTerm(int line) {
   if (!term) return;
   parts_.signalsList->choose(term->signal);
   parts_.tabs->setCurrentWidget(parts_.terms);
-  parts_.plot->select(line, 0);
+  parts_.plot->selectTerm(line, 0);
   parts_.plot->setFocus();
 }
 
