@@ -73,9 +73,9 @@ TEST_F(PolicyKeys, movePointsAndTermsOfThePlot) {
   ASSERT_NO_FATAL_FAILURE(goToAltitudeTerms());
   const Lines before = terms();
   press(Qt::Key_Home);
-  EXPECT_EQ(plot().handle(), 0) << "Home is the plot's here, not the camera's";
+  EXPECT_EQ(plot().selected(), 0) << "Home is the plot's here, not the camera's";
   press(Qt::Key_Tab);
-  EXPECT_EQ(plot().handle(), 1);
+  EXPECT_EQ(plot().selected(), 1);
   press(Qt::Key_Right);
   press(Qt::Key_Right, Qt::ShiftModifier);
   EXPECT_NE(terms()[0], before[0]) << "arrows move a point";

@@ -31,8 +31,8 @@ TEST_F(PolicyDock, aTermDraggedWhileAFlightPlaysMovesTheLeverAndTheRequest) {
   // The feet of `low`, then the top of `high`, far below the aircraft, in the air all the while.
   const int steps = w().draft().undoStack().index();
   const auto drag = [&](int term, std::size_t handle, double toFt) {
-    plot.select(term, -1);
-    const views::TermHandle at = plot.handles().at(handle);
+    plot.selectTerm(term, -1);
+    const views::EditPoint at = plot.points().at(handle);
     const QPoint from = plot.pixelOf(at.x, at.y).toPoint(), to = plot.pixelOf(toFt, at.y).toPoint();
     QTest::mousePress(&plot, Qt::LeftButton, Qt::NoModifier, from);
     for (int i = 1; i <= 10; ++i) {

@@ -136,7 +136,10 @@ TEST_F(BandsEditorTest, theInsetSaysWhyThereIsNoDepthMap) {
 
 TEST_F(BandsEditorTest, theFilesEdgesStayBehindThoseThatAreDragged) {
   const QPoint old = edge(1).toPoint();
-  const auto picture = [&] { return scale().grab(QRect(old - QPoint(6, 30), QSize(13, 60))).toImage(); };
+  const auto picture = [&] {
+    QCoreApplication::processEvents();
+    return scale().grab(QRect(old - QPoint(6, 30), QSize(13, 60))).toImage();
+  };
   drag(scale(), edge(1), scale().pixelOf(0.7));
   scale().select(0);
   const QImage behind = picture();

@@ -140,7 +140,7 @@ void shootPolicy(const QDir& dir) {
   shoot(panel, {572, 520}, dir.filePath(QStringLiteral("policy_empty.png")));
   test::setLargePolicy(draft);
   panel.parts().signalsList->choose(Signal::speed);
-  panel.parts().plot->select(13, 1);
+  panel.parts().plot->selectTerm(13, 1);
   test::PolicyFlight flight;
   const auto fly = [&](int frames) {
     for (int i = 0; i < frames; ++i) {

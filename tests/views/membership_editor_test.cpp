@@ -177,7 +177,7 @@ TEST_F(MembershipEditorTest, enterTypesTheSelectedPoint) {
 TEST_F(MembershipEditorTest, whatTheReadingComputesIsDrawn) {
   draft_.setValue(key::kAltitudeReading, ChoiceIndex{1});
   // equation_a jumps from 0.7 to 0.6 at 5000 ft (document A, Eq. 1 against Table 1).
-  const QCPGraph* effective = plot().graph(1);
+  const QCPGraph* effective = plot().graph(3);
   double below = 0, at = 0;
   for (const QCPGraphData& d : *effective->data()) {
     if (d.key < 5000) below = d.value;
@@ -185,9 +185,9 @@ TEST_F(MembershipEditorTest, whatTheReadingComputesIsDrawn) {
   }
   EXPECT_NEAR(below, 0.7, 1e-3);
   EXPECT_NEAR(at, 0.6, 1e-3);
-  EXPECT_TRUE(plot().graph(0)->visible()) << "the straight lines differ, so they are drawn too";
+  EXPECT_TRUE(plot().graph(2)->visible()) << "the straight lines differ, so they are drawn too";
   draft_.setValue(key::kAltitudeReading, ChoiceIndex{0});
-  EXPECT_FALSE(plot().graph(0)->visible());
+  EXPECT_FALSE(plot().graph(2)->visible());
 }
 
 TEST_F(MembershipEditorTest, pointsThatTheReadingIgnoresAreNotEdited) {
@@ -204,7 +204,7 @@ TEST_F(MembershipEditorTest, theOperatingPointIsTheDecisions) {
   DecisionMemory memory;
   frame.decision = decide(test::inputAt(6500, 5), draft_.active(), memory);
   editor_.showFrame(frame);
-  const auto data = plot().graph(5)->data();
+  const auto data = plot().graph(4)->data();
   ASSERT_TRUE(test::eventually([&] { return data->size() == 1; }));
   EXPECT_NEAR(data->begin()->key, 6500, 1e-9);
   EXPECT_NEAR(data->begin()->value, 0.2, 1e-12);

@@ -3,49 +3,56 @@
 
 #include <algorithm>
 
+#include "edit_points.h"
 #include "views/model/rounded.h"
 
 namespace trimtab::views {
+namespace {
+
+PointRow edgesOf(const BandList& bands) {
+  PointRow row{{}, {kEdgeGap, BandList::kTop - kEdgeGap}, [](std::size_t) { return kEdgeGap; }};
+  for (const Band& band : bands.span()) row.x.push_back(band.low);
+  return row;
+}
+
+}  // namespace
 
 double highOf(const BandList& bands, std::size_t index) {
   return index + 1 < bands.size ? bands.band[index + 1].low : BandList::kTop;
 }
 
 Range freeEdgeRange(const BandList& bands, std::size_t index) {
-  const double below = index > 0 ? bands.band[index - 1].low : 0;
-  return {withoutDust(below + kEdgeGap), withoutDust(highOf(bands, index) - kEdgeGap)};
+  return edgesOf(bands).freeRange(index);
 }
 
-BandList withEdge(const BandList& bands, std::size_t index, double low) {
-  const Range free = freeEdgeRange(bands, index);
+BandList withEdgesMoved(const BandList& bands, const std::vector<std::size_t>& indexes, double by) {
+  by = edgesOf(bands).step(indexes, by);
   BandList moved = bands;
-  if (free.low <= free.high) moved.band[index].low = std::clamp(low, free.low, free.high);
+  for (const std::size_t i : indexes) moved.band[i].low = withoutDust(moved.band[i].low + by);
   return moved;
 }
 
 std::optional<InsertedBand> withBand(const BandList& bands, double low) {
   if (bands.size >= BandList::kCapacity) return std::nullopt;
-  std::size_t index = 0;
-  while (index < bands.size && bands.band[index].low <= low) ++index;
-  const double below = index > 0 ? bands.band[index - 1].low : 0;
-  const double above = index < bands.size ? bands.band[index].low : BandList::kTop;
-  const double least = withoutDust(below + kEdgeGap), most = withoutDust(above - kEdgeGap);
-  if (least > most) return std::nullopt;
-  InsertedBand inserted{bands, index};
+  InsertedBand inserted{bands, 0};
+  std::size_t& index = inserted.index;
   BandList& b = inserted.bands;
+  while (index < b.size && b.band[index].low <= low) ++index;
   for (std::size_t i = b.size; i > index; --i) b.band[i] = b.band[i - 1];
   ++b.size;
   b.band[index] = index > 0 ? b.band[index - 1] : index + 1 < b.size ? b.band[index + 1] : Band{0, 320, 240};
-  b.band[index].low = std::clamp(low, least, most);
+  const Range free = freeEdgeRange(b, index);
+  if (free.low > free.high) return std::nullopt;
+  b.band[index].low = std::clamp(low, free.low, free.high);
   return inserted;
 }
 
-std::optional<BandList> withoutBand(const BandList& bands, std::size_t index) {
-  if (bands.size <= 1 || index >= bands.size) return std::nullopt;
-  BandList removed = bands;
-  for (std::size_t i = index; i + 1 < removed.size; ++i) removed.band[i] = removed.band[i + 1];
-  removed.band[--removed.size] = {};
-  return removed;
+std::optional<BandList> withoutBands(const BandList& bands, const std::vector<std::size_t>& indexes) {
+  if (bands.size <= indexes.size()) return std::nullopt;
+  BandList left;
+  for (std::size_t i = 0; i < bands.size; ++i)
+    if (std::ranges::find(indexes, i) == indexes.end()) left.band[left.size++] = bands.band[i];
+  return left;
 }
 
 }  // namespace trimtab::views

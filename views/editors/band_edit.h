@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "trimtab/preset/table.h"
 
@@ -12,7 +13,9 @@ inline constexpr double kEdgeGap = 0.01;
 
 /// Returns where the lower edge of a band may lie: between its neighbours' edges, within the scale.
 Range freeEdgeRange(const BandList& bands, std::size_t index);
-BandList withEdge(const BandList& bands, std::size_t index, double low);
+/// Returns the bands with the lower edges of several, in rising order, moved together by `by`, or by as much
+/// as all of them may go.
+BandList withEdgesMoved(const BandList& bands, const std::vector<std::size_t>& indexes, double by);
 struct InsertedBand {
   BandList bands;
   std::size_t index = 0;
@@ -20,8 +23,8 @@ struct InsertedBand {
 /// Returns the bands with a new one from `low` up, which has the size of the band that it splits; nothing if
 /// the list is full or there is no room.
 std::optional<InsertedBand> withBand(const BandList& bands, double low);
-/// Returns the bands without one; nothing if it is the only one.
-std::optional<BandList> withoutBand(const BandList& bands, std::size_t index);
+/// Returns the bands without several, in rising order; nothing if none would be left.
+std::optional<BandList> withoutBands(const BandList& bands, const std::vector<std::size_t>& indexes);
 /// Returns the upper edge of a band; the scale's top for the last.
 double highOf(const BandList& bands, std::size_t index);
 

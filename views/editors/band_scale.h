@@ -1,72 +1,65 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QWidget>
-
 #include "band_edit.h"
-#include "edit_hand.h"
-#include "views/model/draft.h"
+#include "point_plot.h"
 #include "views/model/live.h"
 #include "views/model/throttle.h"
 
 namespace trimtab::views {
 
-/// The scale of the total membership, 0 to 2, with its bands. Edges are dragged or moved by keys; the
+/// The scale of the total membership, 0 to 2, with its bands, whose lower edges are its points. The
 /// hysteresis is shaded on both sides of each edge, and the live total is marked.
-class BandScale : public QWidget {
+class BandScale : public PointPlot {
   Q_OBJECT
  public:
   explicit BandScale(Draft& draft, QWidget* parent = nullptr);
 
   void showFrame(const LiveFrame& frame);
-  int selected() const { return hand_.selected(); }
-  void select(int index);
-  void addBand(double low);
-  /// Adds a band in the middle of the selected one.
-  void addBandInSelected();
-  void removeSelected();
+  std::vector<EditPoint> points() const override;
+  void addBand(double low) { insertAt(low, 0); }
   /// Returns where a total lies, in this widget's coordinates.
-  QPointF pixelOf(double total) const;
+  QPointF pixelOf(double total) const { return PointPlot::pixelOf(total, 0.5); }
 
   QSize sizeHint() const override;
-  QSize minimumSizeHint() const override;
+  QSize minimumSizeHint() const override { return {200, sizeHint().height()}; }
 
- signals:
-  void selectedChanged(int index);
-  void refused(const QString& why);
-  void typingAsked();  ///< the person wants to type the selected band's values
+ public slots:
+  /// Adds a band in the middle of the selected one.
+  void insertBesideSelected() override;
 
  protected:
-  void paintEvent(QPaintEvent* event) override;
-  void mousePressEvent(QMouseEvent* event) override;
-  void mouseMoveEvent(QMouseEvent* event) override;
-  void mouseReleaseEvent(QMouseEvent* event) override;
-  void mouseDoubleClickEvent(QMouseEvent* event) override;
-  void contextMenuEvent(QContextMenuEvent* event) override;
+  void moveHeld(const std::vector<std::size_t>& moved, QPointF by, MergeToken token) override;
+  void insertAt(double low, double) override;
+  bool removePoints(const std::vector<std::size_t>& gone) override;
+  void selectElsewhere(QPointF pixel, bool control) override;
+  double distance(const EditPoint& point, QPointF pixel) const override;
+  double finest() const override { return kEdgeGap; }
+  double keyStep() const override { return kEdgeGap; }
+  QString readoutOf(double total, int point) const override;
+  void say(const std::optional<QPointF>& at) override;
+  QString describe() const override;
+  Range wholeView() const override { return {0, BandList::kTop}; }
+  void restyle() override;
+  void redraw() override;
   void keyPressEvent(QKeyEvent* event) override;
-  void keyReleaseEvent(QKeyEvent* event) override;
-  bool focusNextPrevChild(bool next) override;
-  void focusInEvent(QFocusEvent* event) override;
-  void focusOutEvent(QFocusEvent* event) override;
+  bool zoomByKey(double) override { return false; }
 
  private:
-  BandList bands() const;
-  void commit(const BandList& bands, MergeToken token);
-  QRectF track() const;
-  double totalAt(double x) const;
-  int edgeAt(QPointF pixel) const;
+  BandList bands() const { return std::get<BandList>(draft().value(key())); }
   int bandAt(double total) const;
-  void paintBands(QPainter& painter);
-  void paintGhosts(QPainter& painter);
-  QString ghostsText() const;
-  void paintEdges(QPainter& painter);
-  void paintLive(QPainter& painter);
+  void drawBands();
+  void drawEdges();
+  void drawGhosts();
+  void drawLive();
+  void fill(double low, double high, double height, const QBrush& brush);
+  template <class Item>
+  Item& add(const char* layerName);
 
-  Draft& draft_;
-  EditHand hand_;
-  BandList dragStart_;
   std::optional<double> total_;
   int liveBand_ = -1;
+  QList<QCPAbstractItem*> drawn_;
+  QCPGraph* live_;
   Throttle throttle_;
 };
 

@@ -49,7 +49,7 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
   QToolButton* const add =
       buttons->add(tr("Split"), tr("Split the selected band (Insert, or double click in the scale)"));
   remove_ = buttons->add(tr("Remove"), tr("Remove the selected band (Delete)"));
-  connect(add, &QToolButton::clicked, scale_, &BandScale::addBandInSelected);
+  connect(add, &QToolButton::clicked, scale_, &BandScale::insertBesideSelected);
   connect(remove_, &QToolButton::clicked, scale_, &BandScale::removeSelected);
 
   QWidget* upper = new QWidget;
@@ -92,7 +92,8 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
   });
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
-            if (current.isValid()) scale_->select(current.row());
+            // The row that follows the scale must not make one edge of several.
+            if (current.isValid() && current.row() != scale_->selected()) scale_->select(current.row());
           });
   connect(scale_, &BandScale::typingAsked, this, [this] {
     table_->setFocus();

@@ -4,8 +4,8 @@
 #include <QString>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <string_view>
+#include <vector>
 
 #include "trimtab/frame/frame.h"
 #include "trimtab/preset/table.h"
@@ -38,19 +38,14 @@ CurveSpec pitchSpec();
 /// last decimal shown.
 double pointGap(const CurveSpec& spec);
 
-/// Returns the range into which the x of a point may be moved: a gap (pointGap) away from both neighbours and
-/// inside the hard range of the parameter.
-Range freeRange(const CurvePoints& curve, std::size_t index, const CurveSpec& spec);
 /// Returns the x that may be typed for a point: from one neighbour to the other, both included, because two
 /// points at one x are a step. A third one there is refused by validation.
 Range typedRange(const CurvePoints& curve, std::size_t index, const CurveSpec& spec);
-/// Returns the curve with one point moved to `to`, or as near to it as freeRange allows in x and 0 to 1 in
-/// membership.
-CurvePoints withMoved(const CurvePoints& curve, std::size_t index, CurvePoint to, const CurveSpec& spec);
 /// Returns the curve with several points, in rising order, moved by the same amount: by `by`, or as far as
-/// every one of them may go.
-CurvePoints withAllMoved(const CurvePoints& curve, std::span<const std::size_t> indexes, CurvePoint by,
-                         const CurveSpec& spec);
+/// every one of them may go. Points keep a gap (pointGap) from their neighbours and stay inside the hard
+/// range of the parameter.
+CurvePoints withMoved(const CurvePoints& curve, const std::vector<std::size_t>& indexes, CurvePoint by,
+                      const CurveSpec& spec);
 struct Inserted {
   CurvePoints curve;
   std::size_t index = 0;  ///< of the new point
@@ -58,9 +53,8 @@ struct Inserted {
 /// Returns the curve with `point` added, moved into the free range between its neighbours. Returns nullopt if
 /// the curve holds as many points as it can, or if there is no room between the neighbours.
 std::optional<Inserted> withInserted(const CurvePoints& curve, CurvePoint point, const CurveSpec& spec);
-/// Returns the curve without one point. Returns nullopt if the curve has only two points.
-std::optional<CurvePoints> withRemoved(const CurvePoints& curve, std::size_t index);
-/// Does the same for several points, in rising order. Returns nullopt if fewer than two would be left.
-std::optional<CurvePoints> withAllRemoved(const CurvePoints& curve, std::span<const std::size_t> indexes);
+/// Returns the curve without several points, in rising order. Returns nullopt if fewer than two would be
+/// left.
+std::optional<CurvePoints> withRemoved(const CurvePoints& curve, const std::vector<std::size_t>& indexes);
 
 }  // namespace trimtab::views

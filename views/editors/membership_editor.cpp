@@ -34,7 +34,7 @@ CurveEditor::CurveEditor(Draft& draft, const CurveSpec& spec, const QList<QWidge
   add_ = buttons->add(tr("Add"),
                       tr("Add a breakpoint after the selected one (Insert, or double click in the plot)"));
   remove_ = buttons->add(tr("Remove"), tr("Remove the selected breakpoint (Delete)"));
-  connect(add_, &QToolButton::clicked, plot_, &CurvePlot::addPointBesideSelected);
+  connect(add_, &QToolButton::clicked, plot_, &CurvePlot::insertBesideSelected);
   connect(remove_, &QToolButton::clicked, plot_, &CurvePlot::removeSelected);
   QWidget* side = new QWidget;
   QVBoxLayout* sideLayout = new QVBoxLayout(side);

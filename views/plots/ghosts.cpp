@@ -42,7 +42,7 @@ void Ghosts::showNames() {
       names << (which == Reference::pinned ? QObject::tr("dash-dotted: %1") : QObject::tr("dotted: %1"))
                    .arg(ghostName(which, draft_));
   names_->setText(names.join(QLatin1Char('\n')));
-  names_->setVisible(!names.isEmpty());
+  names_->setVisible(named_ && !names.isEmpty());
 }
 
 void Ghosts::show(Reference which, const QVector<Line>& lines) {

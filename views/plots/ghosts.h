@@ -28,12 +28,15 @@ class Ghosts {
   void show(Reference which, const QVector<Line>& lines);
   bool isShown(Reference which) const { return of(which)->visible(); }
   void restyle(const QPalette& palette);
+  /// Names no ghosts in the corner: the plot says in another way what they are.
+  void leaveNamesOut() { named_ = false; }
 
  private:
   void showNames();
   QCPCurve* of(Reference which) const { return curves_[which == kGhosts[0] ? 0 : 1]; }
 
   const Draft& draft_;
+  bool named_ = true;
   std::array<QCPCurve*, 2> curves_;
   QCPItemText* names_;
 };

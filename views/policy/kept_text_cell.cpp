@@ -1,12 +1,92 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "kept_text_cell.h"
 
+#include <QAbstractItemView>
+#include <QApplication>
+#include <QCompleter>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QStandardItemModel>
 
 #include "views/model/theme.h"
 
 namespace trimtab::views {
+namespace {
+
+/// Completes the word before the cursor, by its own letters or those of its name. Enter belongs to the editor
+/// unless a word was chosen by the arrow keys.
+class WordCompleter : public QCompleter {
+ public:
+  explicit WordCompleter(QLineEdit& edit) : QCompleter(&edit), edit_(edit) {
+    setModel(&model_);
+    setWidget(&edit);
+    setFilterMode(Qt::MatchContains);
+    setCaseSensitivity(Qt::CaseInsensitive);
+    popup_ = popup();
+    popup_->setAccessibleName(tr("Words"));
+    connect(this, qOverload<const QModelIndex&>(&QCompleter::activated), &edit,
+            [this](const QModelIndex& chosen) { insert(chosen.data(Qt::UserRole).toString()); });
+  }
+
+  qsizetype wordBegin() const {
+    const QString before = edit_.text().left(edit_.cursorPosition());
+    qsizetype at = before.size();
+    while (at > 0 && (before[at - 1].isLetterOrNumber() || before[at - 1] == QLatin1Char('_'))) --at;
+    return at;
+  }
+
+  void offer(const QList<KeptTextCell::Word>& words) {
+    const qsizetype begin = wordBegin();
+    const QString typed = edit_.text().mid(begin, edit_.cursorPosition() - begin);
+    model_.clear();
+    bool whole = typed.isEmpty();
+    for (const auto& [word, name] : words) {
+      whole = whole || word == typed;
+      auto* item = new QStandardItem(name.isEmpty() ? word : QStringLiteral("%1 – %2").arg(word, name));
+      item->setData(word, Qt::UserRole);
+      model_.appendRow(item);
+    }
+    setCompletionPrefix(typed);
+    if (whole || completionCount() == 0) return popup_->hide();
+    QRect under = edit_.inputMethodQuery(Qt::ImCursorRectangle).toRect();
+    under.setWidth(popup_->sizeHintForColumn(0) + 24);
+    complete(under);
+  }
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    const auto isEnter = [event] {
+      const int key = static_cast<QKeyEvent*>(event)->key();
+      return key == Qt::Key_Return || key == Qt::Key_Enter;
+    };
+    if (popup_ != nullptr && watched == popup_ && event->type() == QEvent::KeyPress && isEnter() &&
+        !popup_->currentIndex().isValid()) {
+      popup_->hide();
+      return QApplication::sendEvent(&edit_, event);
+    }
+    return QCompleter::eventFilter(watched, event);
+  }
+
+ private:
+  void insert(const QString& word) {
+    const qsizetype begin = wordBegin();
+    edit_.setSelection(int(begin), int(edit_.cursorPosition() - begin));
+    edit_.insert(word);
+  }
+
+  QLineEdit& edit_;
+  QStandardItemModel model_;
+  QAbstractItemView* popup_ = nullptr;  ///< none while it is made, which sends events already
+};
+
+}  // namespace
+
+void KeptTextCell::addCompleter(QLineEdit& edit, const QPersistentModelIndex& index) const {
+  auto* completer = new WordCompleter(edit);
+  connect(&edit, &QLineEdit::textEdited, completer, [this, completer, index](const QString& text) {
+    completer->offer(words_(index, text.left(completer->wordBegin())));
+  });
+}
 
 QWidget* KeptTextCell::createEditor(QWidget* parent, const QStyleOptionViewItem&,
                                     const QModelIndex& index) const {
@@ -16,6 +96,7 @@ QWidget* KeptTextCell::createEditor(QWidget* parent, const QStyleOptionViewItem&
   edit->setAccessibleName(
       index.model()->headerData(index.column(), Qt::Horizontal, Qt::DisplayRole).toString());
   editing_ = index;
+  if (words_) addCompleter(*edit, index);
   connect(edit, &QLineEdit::textEdited, edit,
           [edit] { setTextColour(*edit, edit->parentWidget()->palette().color(QPalette::Text)); });
   return edit;

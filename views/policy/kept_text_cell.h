@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QList>
 #include <QStyledItemDelegate>
 #include <functional>
+#include <utility>
+
+class QLineEdit;
 
 namespace trimtab::views {
 
@@ -15,6 +19,13 @@ class KeptTextCell : public QStyledItemDelegate {
   using Check = std::function<QString(const QModelIndex&, const QString&)>;
 
   KeptTextCell(Check check, QObject* parent) : QStyledItemDelegate(parent), check_(std::move(check)) {}
+
+  /// A word, and what it is called, "above_ground" and "Height above ground".
+  using Word = std::pair<QString, QString>;
+  /// Returns the words that may follow a text.
+  using Words = std::function<QList<Word>(const QModelIndex&, const QString& before)>;
+  /// Offers words below the editor while one types.
+  void completeFrom(Words words) { words_ = std::move(words); }
 
   QWidget* createEditor(QWidget* parent, const QStyleOptionViewItem& option,
                         const QModelIndex& index) const override;
@@ -29,7 +40,10 @@ class KeptTextCell : public QStyledItemDelegate {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void addCompleter(QLineEdit& edit, const QPersistentModelIndex& index) const;
+
   Check check_;
+  Words words_;
   /// What was typed last and refused, and into which cell that had which text.
   mutable QPersistentModelIndex keptFor_;
   mutable QString kept_, keptOver_;

@@ -10,7 +10,6 @@
 #include <limits>
 
 #include "term_edit.h"
-#include "trimtab/preset/policy_lines.h"
 #include "trimtab/units/not_finite.h"
 #include "views/model/theme.h"
 #include "views/plots/cividis.h"
@@ -33,21 +32,21 @@ QString axisText(Signal signal) {
 
 }  // namespace
 
-LeverSurface::LeverSurface(Draft& draft, const PolicyTrack& track, QWidget* parent)
+LeverSurface::LeverSurface(PolicyDraft& policy, const PolicyTrack& track, QWidget* parent)
     : Plot(tr("A lever over two signals"), Keyboard::used, parent),
-      draft_(draft),
+      policy_(policy),
       track_(track),
       throttle_(
           this, [this] { compute(); }, kSurfaceMs) {
   makePlottables();
   restyle();
-  connect(&draft_, &Draft::activeChanged, this, [this] {
-    const auto policy = policyOf(draft_.active()->policy);
-    if (!policy || *policy == policy_) return;
-    if (fitted_ && policy->terms != policy_.terms) fitView();
+  connect(&policy_.draft(), &Draft::activeChanged, this, [this] {
+    const Policy runs = policy_.active();
+    if (runs == drawn_) return;
+    if (fitted_ && runs.terms != drawn_.terms) fitView();
     throttle_.request();
   });
-  connect(&draft_, &Draft::loaded, this, &LeverSurface::fitView);
+  connect(&policy_.draft(), &Draft::loaded, this, &LeverSurface::fitView);
   for (QCPAxis* const axis : {xAxis, yAxis})
     connect(axis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, [this] { throttle_.request(); });
   connect(this, &QCustomPlot::mouseWheel, this, [this] { fitted_ = false; });
@@ -114,8 +113,7 @@ void LeverSurface::choose(Lever lever, Signal x, Signal y) {
 
 void LeverSurface::fitView() {
   fitted_ = true;
-  const auto policy = policyOf(draft_.active()->policy);
-  const std::vector<PolicyTerm> terms = policy ? policy->terms : std::vector<PolicyTerm>{};
+  const std::vector<PolicyTerm> terms = policy_.active().terms;
   const Range x = viewOf(x_, terms), y = viewOf(y_, terms);
   xAxis->setRange(x.low, x.high);
   yAxis->setRange(y.low, y.high);
@@ -131,13 +129,12 @@ bool LeverSurface::zoomByKey(double factor) {
 
 void LeverSurface::compute() {
   ++computed_;
-  const auto policy = policyOf(draft_.active()->policy);
-  policy_ = policy ? *policy : Policy{};
-  if (const auto compiled = compile(policy_, "")) compiled_ = *compiled;
+  drawn_ = policy_.active();
+  if (const auto compiled = compile(drawn_, "")) compiled_ = *compiled;
   around_ = flight_;
   for (const SignalRow& row : kSignalRows)
     if (std::isnan(around_[row.signal])) {
-      const Range view = viewOf(row.signal, policy_.terms);
+      const Range view = viewOf(row.signal, drawn_.terms);
       around_[row.signal] = (view.low + view.high) / 2;
     }
   xAxis->setLabel(axisText(x_));
@@ -191,7 +188,7 @@ void LeverSurface::showLive(const PolicyLive& live) {
   if (live.seen) flight_ = live.flight;
   const bool moved = std::any_of(kSignalRows.begin(), kSignalRows.end(), [&](const SignalRow& row) {
     if (row.signal == x_ || row.signal == y_ || !compiled_.asks(row.signal)) return false;
-    const Range view = viewOf(row.signal, policy_.terms);
+    const Range view = viewOf(row.signal, drawn_.terms);
     return std::abs(flight_[row.signal] - around_[row.signal]) > kSteady * (view.high - view.low);
   });
   if (moved) throttle_.request();
@@ -236,9 +233,9 @@ void LeverSurface::leaveEvent(QEvent* event) {
   layer(QStringLiteral("hover"))->replot();
 }
 
-SurfacePage::SurfacePage(Draft& draft, const PolicyTrack& track, QWidget* parent)
+SurfacePage::SurfacePage(PolicyDraft& policy, const PolicyTrack& track, QWidget* parent)
     : QWidget(parent),
-      surface_(new LeverSurface(draft, track)),
+      surface_(new LeverSurface(policy, track)),
       lever_(new QComboBox),
       x_(new QComboBox),
       y_(new QComboBox) {

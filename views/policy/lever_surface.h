@@ -16,7 +16,7 @@ namespace trimtab::views {
 class LeverSurface : public Plot {
   Q_OBJECT
  public:
-  LeverSurface(Draft& draft, const PolicyTrack& track, QWidget* parent = nullptr);
+  LeverSurface(PolicyDraft& policy, const PolicyTrack& track, QWidget* parent = nullptr);
 
   void choose(Lever lever, Signal x, Signal y);
   void showLive(const PolicyLive& live);
@@ -43,11 +43,11 @@ class LeverSurface : public Plot {
   void compute();
   void drawLive();
 
-  Draft& draft_;
+  PolicyDraft& policy_;
   const PolicyTrack& track_;
   Lever lever_ = Lever::screen_space_error;
   Signal x_ = Signal::above_ground, y_ = Signal::speed;
-  Policy policy_;
+  Policy drawn_;
   CompiledPolicy compiled_;
   SignalValues flight_, around_;  ///< live; and those that the surface was computed at
   QCPColorMap* map_ = nullptr;
@@ -65,7 +65,7 @@ class LeverSurface : public Plot {
 class SurfacePage : public QWidget {
   Q_OBJECT
  public:
-  SurfacePage(Draft& draft, const PolicyTrack& track, QWidget* parent = nullptr);
+  SurfacePage(PolicyDraft& policy, const PolicyTrack& track, QWidget* parent = nullptr);
   LeverSurface& surface() { return *surface_; }
   void showLive(const PolicyLive& live) { surface_->showLive(live); }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "trimtab/policy/compiled_policy.h"
 #include "trimtab/policy/condition_terms.h"
@@ -13,11 +14,35 @@
 namespace trimtab::views {
 namespace {
 
-std::string termLine(const PolicyTerm& term) {
-  return policyLines({{}, {term}, {}}).terms.line.front();
+/// Takes lines of text over. Lines that are known already are not read again: a drag changes one of many.
+template <class Line, class Read>
+void take(std::vector<Line>& known, const TextLines& texts, std::optional<Line>& written, Read read) {
+  if (written) known.push_back(*std::exchange(written, std::nullopt));
+  std::vector<Line> taken;
+  for (const std::string& text : texts.line) {
+    const auto same = std::ranges::find(known, text, &Line::text);
+    taken.push_back(same != known.end() ? *same : read(text));
+  }
+  known = std::move(taken);
 }
-std::string ruleLine(const PolicyRule& rule) {
-  return policyLines({{}, {}, {rule}}).rules.line.front();
+
+PolicyDraft::TermLine readTerm(const std::string& text) {
+  PolicyParameters one;
+  one.terms.line = {text};
+  const auto policy = policyOf(one);
+  if (!policy) return {text, std::nullopt, false};
+  return {text, policy->terms.front(), isSound(policy->terms.front())};
+}
+
+PolicyDraft::RuleLine readRule(const std::string& text) {
+  PolicyParameters one;
+  one.rules.line = {text};
+  const auto policy = policyOf(one);
+  return {text, policy ? std::optional(policy->rules.front()) : std::nullopt};
+}
+
+auto place(std::vector<std::string>& lines, std::size_t line) {
+  return lines.begin() + static_cast<std::ptrdiff_t>(line);
 }
 
 }  // namespace
@@ -59,43 +84,40 @@ TextLines PolicyDraft::lines(std::string_view key) const {
 }
 
 void PolicyDraft::readTerms() {
-  std::vector<TermLine> read;
-  for (const std::string& text : lines(key::kPolicyTerms).line) {
-    // A drag changes one line of many.
-    if (read.size() < terms_.size() && terms_[read.size()].text == text) {
-      read.push_back(terms_[read.size()]);
-      continue;
-    }
-    PolicyParameters one;
-    one.terms.line = {text};
-    const auto policy = policyOf(one);
-    TermLine line;
-    line.text = text;
-    if (policy) line.term = policy->terms.front();
-    line.sound = line.term && isSound(*line.term);
-    read.push_back(std::move(line));
-  }
-  terms_ = std::move(read);
+  take(terms_, lines(key::kPolicyTerms), writtenTerm_, readTerm);
 }
 
 void PolicyDraft::readRules() {
-  std::vector<RuleLine> read;
-  for (const std::string& text : lines(key::kPolicyRules).line) {
-    if (read.size() < rules_.size() && rules_[read.size()].text == text) {
-      read.push_back(rules_[read.size()]);
-      continue;
-    }
-    PolicyParameters one;
-    one.rules.line = {text};
-    const auto policy = policyOf(one);
-    read.push_back({text, policy ? std::optional(policy->rules.front()) : std::nullopt});
-  }
-  rules_ = std::move(read);
+  take(rules_, lines(key::kPolicyRules), writtenRule_, readRule);
+}
+
+std::string PolicyDraft::written(const PolicyTerm& term) {
+  writtenTerm_ = {policyLines({{}, {term}, {}}).terms.line.front(), term, isSound(term)};
+  return writtenTerm_->text;
+}
+
+std::string PolicyDraft::written(const PolicyRule& rule) {
+  writtenRule_ = {policyLines({{}, {}, {rule}}).rules.line.front(), rule};
+  return writtenRule_->text;
+}
+
+Policy PolicyDraft::active() const {
+  const PolicyParameters& runs = draft_.active()->policy;
+  const auto same = [](const std::string& text, const auto& line) { return text == line.text; };
+  const bool typed =
+      std::ranges::equal(runs.terms.line, terms_, same) && std::ranges::equal(runs.rules.line, rules_, same);
+  if (typed) return policy(runs.norm);
+  const auto read = policyOf(runs);
+  return read ? *read : Policy{};
 }
 
 Policy PolicyDraft::policy() const {
+  return policy(draft_.parameters().policy.norm);
+}
+
+Policy PolicyDraft::policy(PolicyNorm norm) const {
   Policy policy;
-  policy.norm = draft_.parameters().policy.norm;
+  policy.norm = norm;
   for (const TermLine& line : terms_)
     if (line.term) policy.terms.push_back(*line.term);
   for (const RuleLine& line : rules_)
@@ -150,17 +172,23 @@ Findings PolicyDraft::check(const PolicyRule& rule) const {
   return findings;
 }
 
+template <class Change>
+void PolicyDraft::change(std::string_view key, Change change, const QString& undoText, MergeToken token) {
+  TextLines changed = lines(key);
+  change(changed.line);
+  draft_.setValues(std::array{Draft::KeyValue{key, changed}}, undoText, token);
+}
+
 void PolicyDraft::putTerm(std::size_t line, const PolicyTerm& term, const QString& undoText,
                           MergeToken token) {
-  TextLines changed = lines(key::kPolicyTerms);
-  changed.line[line] = termLine(term);
-  draft_.setValues(std::array{Draft::KeyValue{key::kPolicyTerms, changed}}, undoText, token);
+  change(
+      key::kPolicyTerms, [&](auto& lines) { lines[line] = written(term); }, undoText, token);
 }
 
 void PolicyDraft::insertTerm(std::size_t line, const PolicyTerm& term, const QString& undoText) {
   TextLines changed = lines(key::kPolicyTerms);
   const bool first = empty();
-  changed.line.insert(changed.line.begin() + static_cast<std::ptrdiff_t>(line), termLine(term));
+  changed.line.insert(place(changed.line, line), written(term));
   // The first term of a policy switches it on, so that its signals are derived.
   const std::array values{Draft::KeyValue{key::kPolicyTerms, changed},
                           Draft::KeyValue{key::kPolicyEnabled, first || draft_.parameters().policy.enabled}};
@@ -168,9 +196,8 @@ void PolicyDraft::insertTerm(std::size_t line, const PolicyTerm& term, const QSt
 }
 
 void PolicyDraft::removeTerm(std::size_t line) {
-  TextLines changed = lines(key::kPolicyTerms);
-  changed.line.erase(changed.line.begin() + static_cast<std::ptrdiff_t>(line));
-  draft_.setValues(std::array{Draft::KeyValue{key::kPolicyTerms, changed}}, tr("Remove Term"));
+  change(
+      key::kPolicyTerms, [&](auto& lines) { lines.erase(place(lines, line)); }, tr("Remove Term"));
 }
 
 void PolicyDraft::renameTerm(std::size_t line, const std::string& name) {
@@ -182,40 +209,37 @@ void PolicyDraft::renameTerm(std::size_t line, const std::string& name) {
     const std::string condition = withTermRenamed(rule.condition, term.signal, term.name, name);
     if (condition == rule.condition) continue;
     rule.condition = condition;
-    rules.line[i] = ruleLine(rule);
+    rules.line[i] = written(rule);
   }
   term.name = name;
-  terms.line[line] = termLine(term);
+  terms.line[line] = written(term);
   const std::array values{Draft::KeyValue{key::kPolicyTerms, terms},
                           Draft::KeyValue{key::kPolicyRules, rules}};
   draft_.setValues(values, tr("Rename Term"));
 }
 
-void PolicyDraft::putRule(std::size_t line, const PolicyRule& rule, const QString& undoText,
-                          MergeToken token) {
-  TextLines changed = lines(key::kPolicyRules);
-  changed.line[line] = ruleLine(rule);
-  draft_.setValues(std::array{Draft::KeyValue{key::kPolicyRules, changed}}, undoText, token);
+void PolicyDraft::putRule(std::size_t line, const PolicyRule& rule, const QString& undoText) {
+  change(
+      key::kPolicyRules, [&](auto& lines) { lines[line] = written(rule); }, undoText);
 }
 
 void PolicyDraft::insertRule(std::size_t line, const PolicyRule& rule, const QString& undoText) {
-  TextLines changed = lines(key::kPolicyRules);
-  changed.line.insert(changed.line.begin() + static_cast<std::ptrdiff_t>(line), ruleLine(rule));
-  draft_.setValues(std::array{Draft::KeyValue{key::kPolicyRules, changed}}, undoText);
+  change(
+      key::kPolicyRules, [&](auto& lines) { lines.insert(place(lines, line), written(rule)); }, undoText);
 }
 
 void PolicyDraft::removeRule(std::size_t line) {
-  TextLines changed = lines(key::kPolicyRules);
-  changed.line.erase(changed.line.begin() + static_cast<std::ptrdiff_t>(line));
-  draft_.setValues(std::array{Draft::KeyValue{key::kPolicyRules, changed}}, tr("Remove Rule"));
+  change(
+      key::kPolicyRules, [&](auto& lines) { lines.erase(place(lines, line)); }, tr("Remove Rule"));
 }
 
 void PolicyDraft::moveRule(std::size_t from, std::size_t to) {
-  TextLines changed = lines(key::kPolicyRules);
-  std::string moved = std::move(changed.line[from]);
-  changed.line.erase(changed.line.begin() + static_cast<std::ptrdiff_t>(from));
-  changed.line.insert(changed.line.begin() + static_cast<std::ptrdiff_t>(to), std::move(moved));
-  draft_.setValues(std::array{Draft::KeyValue{key::kPolicyRules, changed}}, tr("Move Rule"));
+  const auto move = [&](auto& lines) {
+    std::string moved = std::move(lines[from]);
+    lines.erase(place(lines, from));
+    lines.insert(place(lines, to), std::move(moved));
+  };
+  change(key::kPolicyRules, move, tr("Move Rule"));
 }
 
 void PolicyDraft::replace(const Policy& policy, const QString& undoText) {

@@ -12,7 +12,9 @@
 namespace trimtab::views {
 
 /// The policy of a draft, line by line, so that a line which cannot be read is shown and can be mended or
-/// removed. Every change goes through the draft as one undo step, or as a part of the step with its token.
+/// removed. It keeps terms and rules as such: text is read only when a line comes from elsewhere, such as a
+/// file, an undo or a person who types. Every change goes through the draft as one undo step, or as a part of
+/// the step with its token; it writes its own line and leaves all others as they are, letter by letter.
 class PolicyDraft : public QObject {
   Q_OBJECT
  public:
@@ -34,6 +36,8 @@ class PolicyDraft : public QObject {
   bool empty() const { return terms_.empty() && rules_.empty(); }
   /// Returns the policy that the readable lines make.
   Policy policy() const;
+  /// Returns the policy that runs; an empty one if it cannot be read.
+  Policy active() const;
   /// Returns the lines of a signal's terms.
   std::vector<std::size_t> termsOf(Signal signal) const;
   /// Reports whether a rule that is switched on asks for the signal.
@@ -51,7 +55,7 @@ class PolicyDraft : public QObject {
   void removeTerm(std::size_t line);
   /// Gives a term another name, in the rules too.
   void renameTerm(std::size_t line, const std::string& name);
-  void putRule(std::size_t line, const PolicyRule& rule, const QString& undoText, MergeToken token = 0);
+  void putRule(std::size_t line, const PolicyRule& rule, const QString& undoText);
   void insertRule(std::size_t line, const PolicyRule& rule, const QString& undoText);
   void removeRule(std::size_t line);
   void moveRule(std::size_t from, std::size_t to);
@@ -65,11 +69,20 @@ class PolicyDraft : public QObject {
  private:
   void readTerms();
   void readRules();
+  Policy policy(PolicyNorm norm) const;
+  /// Changes the lines of one key as a step.
+  template <class Change>
+  void change(std::string_view key, Change change, const QString& undoText, MergeToken token = 0);
+  std::string written(const PolicyTerm& term);
+  std::string written(const PolicyRule& rule);
   TextLines lines(std::string_view key) const;
 
   Draft& draft_;
   std::vector<TermLine> terms_;
   std::vector<RuleLine> rules_;
+  /// The lines that are being written, which need not be read again.
+  std::optional<TermLine> writtenTerm_;
+  std::optional<RuleLine> writtenRule_;
 };
 
 /// Reports whether a term by itself compiles, so that its membership can be computed.

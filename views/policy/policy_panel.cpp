@@ -172,7 +172,7 @@ void PolicyPanel::makeTabs() {
   p.rules = new RulesPage(*policy_);
   p.levers = new LeversView;
   p.shares = new SharesView;
-  p.surface = new SurfacePage(draft_, track_);
+  p.surface = new SurfacePage(*policy_, track_);
   p.findings = new FindingsPage(*policy_);
   auto* levers = scrollable(p.levers, tr("Levers"));
   p.tabs->addTab(p.terms, tr("Terms"));
@@ -296,8 +296,7 @@ void PolicyPanel::showFrame(const LiveFrame& frame) {
 
 /// Reads the active policy once for each change of it; frames only decide it.
 void PolicyPanel::readActive() {
-  const auto policy = policyOf(draft_.active()->policy);
-  live_.policy = policy ? *policy : Policy{};
+  live_.policy = policy_->active();
 }
 
 void PolicyPanel::refresh() {
@@ -345,7 +344,7 @@ void PolicyPanel::showTerm(int line) {
   if (!term) return;
   parts_.signalsList->choose(term->signal);
   parts_.tabs->setCurrentWidget(parts_.terms);
-  parts_.plot->select(line, 0);
+  parts_.plot->selectTerm(line, 0);
   parts_.plot->setFocus();
 }
 
@@ -356,8 +355,7 @@ Findings PolicyPanel::importFile(const QString& file) {
 }
 
 Findings PolicyPanel::exportFile(const QString& file) const {
-  const auto policy = policyOf(draft_.active()->policy);
-  return policy ? writePolicyFile(file, *policy, draft_.preset().name) : policy.findings();
+  return writePolicyFile(file, policy_->active(), draft_.preset().name);
 }
 
 void PolicyPanel::askAndImport() {

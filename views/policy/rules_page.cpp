@@ -5,6 +5,7 @@
 #include <QBoxLayout>
 #include <QHeaderView>
 #include <QLineEdit>
+#include <QRegularExpression>
 #include <QScrollBar>
 #include <QToolButton>
 #include <algorithm>
@@ -18,6 +19,32 @@
 #include "views/model/theme.h"
 
 namespace trimtab::views {
+namespace {
+
+/// Returns the terms that may follow "SIGNAL is" and hedges; the signals, or the levers, in any other place.
+QList<KeptTextCell::Word> wordsAfter(const QString& before, bool settings, const PolicyDraft& policy) {
+  QList<KeptTextCell::Word> words;
+  if (settings || before.contains(QStringLiteral(" then "))) {
+    for (const LeverRow& row : kLeverRows)
+      words << KeptTextCell::Word{fromView(row.key), fromView(row.label)};
+    return words;
+  }
+  static const QRegularExpression kIs(
+      QStringLiteral("(\\w+) is (not |very |somewhat |extremely |seldom )*$"));
+  const auto signal = signalNamed(kIs.match(before).captured(1).toStdString());
+  if (!signal) {
+    for (const SignalRow& row : kSignalRows)
+      words << KeptTextCell::Word{fromView(row.key), fromView(row.label)};
+    return words;
+  }
+  for (const std::size_t line : policy.termsOf(*signal))
+    words << KeptTextCell::Word{QString::fromStdString(policy.terms()[line].term->name), QString()};
+  for (const char* word : {"any", "not", "very", "somewhat", "extremely", "seldom"})
+    words << KeptTextCell::Word{QString::fromLatin1(word), QString()};
+  return words;
+}
+
+}  // namespace
 
 RulesPage::RulesPage(PolicyDraft& policy, QWidget* parent)
     : QWidget(parent),
@@ -53,6 +80,7 @@ RulesPage::RulesPage(PolicyDraft& policy, QWidget* parent)
   connect(model_, &PolicyRulesModel::moved, this, &RulesPage::select);
   connect(&policy_.draft(), &Draft::findingsChanged, this, [this] { showNote(); });
   connect(&policy_, &PolicyDraft::rulesChanged, this, &RulesPage::arrangeColumns);
+  connect(&policy_, &PolicyDraft::rulesChanged, this, &RulesPage::showNote);
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &RulesPage::showNote);
   showNote();
 }
@@ -90,6 +118,12 @@ void RulesPage::makeTable() {
       table_);
   connect(text, &KeptTextCell::refused, this, &RulesPage::say);
   connect(text, &KeptTextCell::accepted, this, [this] { say({}); });
+  text->completeFrom([this](const QModelIndex& index, const QString& before) {
+    const bool words =
+        index.column() == PolicyRulesModel::kCondition || index.column() == PolicyRulesModel::kSettings;
+    return words ? wordsAfter(before, index.column() == PolicyRulesModel::kSettings, policy_)
+                 : QList<KeptTextCell::Word>{};
+  });
   for (const int column : {PolicyRulesModel::kCondition, PolicyRulesModel::kSettings,
                            PolicyRulesModel::kWeight, PolicyRulesModel::kReason})
     table_->setItemDelegateForColumn(column, text);
@@ -238,6 +272,29 @@ void RulesPage::moveRule(int by) {
   select(to);
 }
 
+/// Levers are weighted means: a rule that no other rule shares a lever with sets it in full as soon as it
+/// fires at all.
+QString RulesPage::switchNote(std::size_t line) const {
+  const auto counts = [this](std::size_t i) {
+    const auto& rule = policy_.rules()[i].rule;
+    return rule && rule->enabled && rule->weight > 0;
+  };
+  if (!counts(line)) return {};
+  QStringList alone;
+  for (const LeverSetting& setting : policy_.rules()[line].rule->settings) {
+    bool shared = false;
+    for (std::size_t i = 0; i < policy_.rules().size(); ++i)
+      shared = shared || (i != line && counts(i) &&
+                          std::ranges::find(policy_.rules()[i].rule->settings, setting.lever,
+                                            &LeverSetting::lever) != policy_.rules()[i].rule->settings.end());
+    if (!shared) alone << fromView(rowOf(setting.lever).label);
+  }
+  if (alone.isEmpty()) return {};
+  return tr("Rule %1 is a switch: no other rule sets %2, so it counts in full at any firing above 0.")
+      .arg(line + 1)
+      .arg(alone.join(QStringLiteral(", ")));
+}
+
 QString RulesPage::note() const {
   return note_->text();
 }
@@ -250,8 +307,9 @@ void RulesPage::say(const QString& refusal) {
 void RulesPage::showNote() {
   QString text = refusal_;
   if (text.isEmpty()) text = sentences(policy_.draft().findingsOf(key::kPolicyRules));
-  note_->say(text, errorColour(palette()));
   const int at = selected(), count = model_->rowCount();
+  const QString switches = text.isEmpty() && at >= 0 ? switchNote(static_cast<std::size_t>(at)) : QString();
+  note_->say(text + switches, text.isEmpty() ? quietColour(palette()) : errorColour(palette()));
   duplicate_->setEnabled(at >= 0);
   remove_->setEnabled(at >= 0);
   up_->setEnabled(at > 0);

@@ -53,6 +53,7 @@ class RulesPage : public QWidget {
   void selectFound(int from, int by);
   void say(const QString& refusal);
   void showNote();
+  QString switchNote(std::size_t line) const;
   PolicyRule newRule() const;
 
   PolicyDraft& policy_;

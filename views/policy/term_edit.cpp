@@ -92,6 +92,21 @@ Outline outlineOf(const PolicyTerm& term, Range view) {
   return {view.low + quarter, view.low + 2 * quarter, view.low + 2 * quarter, view.high - quarter};
 }
 
+std::size_t strideOf(const PolicyTerm& term) {
+  return term.shape == TermShape::points ? 2 : 1;
+}
+
+/// Returns the places of a polygon, of feet and of tops. Tops may meet; a foot keeps a flank, so that the
+/// term has a width.
+PointRow xOf(const PolicyTerm& term, double gap) {
+  PointRow row{{}, {-kInfinity, kInfinity}, {}};
+  for (std::size_t i = 0; i < term.numbers.size(); i += strideOf(term)) row.x.push_back(term.numbers[i]);
+  row.gapAfter = [gap, points = term.shape == TermShape::points, last = row.x.size() - 2](std::size_t i) {
+    return points || i == 0 || i == last ? gap : 0;
+  };
+  return row;
+}
+
 double significant(double value) {
   if (value == 0 || !std::isfinite(value)) return value;
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3);
@@ -100,11 +115,11 @@ double significant(double value) {
 
 }  // namespace
 
-std::vector<TermHandle> handlesOf(const PolicyTerm& term, Range view) {
+std::vector<EditPoint> handlesOf(const PolicyTerm& term, Range view) {
   if (!takes(term)) return {};
   const auto tr = [](const char* text) { return QObject::tr(text); };
   const std::vector<double>& n = term.numbers;
-  std::vector<TermHandle> handles;
+  std::vector<EditPoint> handles;
   switch (term.shape) {
     case TermShape::points:
       for (std::size_t i = 0; i < n.size(); i += 2)
@@ -150,25 +165,14 @@ std::vector<TermHandle> handlesOf(const PolicyTerm& term, Range view) {
 PolicyTerm withHandleAt(const PolicyTerm& term, std::size_t handle, double x, double y, double gap) {
   PolicyTerm moved = term;
   std::vector<double>& n = moved.numbers;
-  const auto between = [](double value, double low, double high) {
-    return std::min(std::max(value, low), std::max(low, high));
-  };
   switch (term.shape) {
-    case TermShape::points: {
-      const std::size_t at = 2 * handle;
-      n[at] =
-          between(x, at >= 2 ? n[at - 2] + gap : -kInfinity, at + 2 < n.size() ? n[at + 2] - gap : kInfinity);
-      n[at + 1] = std::clamp(y, 0.0, 1.0);
-      break;
-    }
+    case TermShape::points:
     case TermShape::triangle:
     case TermShape::trapezoid: {
-      const bool foot = handle == 0 || handle + 1 == n.size();
-      // Tops may meet; a foot keeps a flank, so that the term has a width.
-      const double low = handle == 0 ? -kInfinity : n[handle - 1] + (handle == 1 || foot ? gap : 0);
-      const double high =
-          handle + 1 == n.size() ? kInfinity : n[handle + 1] - (handle + 2 == n.size() || foot ? gap : 0);
-      n[handle] = between(x, low, high);
+      const std::size_t at = strideOf(term) * handle;
+      const Range free = xOf(term, gap).freeRange(handle);
+      n[at] = std::min(std::max(x, free.low), std::max(free.low, free.high));
+      if (term.shape == TermShape::points) n[at + 1] = std::clamp(y, 0.0, 1.0);
       break;
     }
     case TermShape::ramp: {
@@ -177,8 +181,6 @@ PolicyTerm withHandleAt(const PolicyTerm& term, std::size_t handle, double x, do
       break;
     }
     case TermShape::gaussian:
-      handle == 0 ? n[0] = x : n[1] = std::max(gap, std::abs(x - n[0]));
-      break;
     case TermShape::bell:
       if (handle == 0) n[0] = x;
       if (handle == 1) n[1] = std::max(gap, std::abs(x - n[0]));
@@ -200,34 +202,30 @@ PolicyTerm withHandleAt(const PolicyTerm& term, std::size_t handle, double x, do
 }
 
 PolicyTerm withHandlesMoved(const PolicyTerm& term, const std::vector<std::size_t>& handles, double dx,
-                            double dy, double gap) {
+                            double dy, double gap, Range view) {
   PolicyTerm moved = term;
   std::vector<double>& n = moved.numbers;
-  const auto isMoved = [&](std::size_t handle) {
-    return std::ranges::find(handles, handle) != handles.end();
-  };
   const auto isMiddle =
       term.shape == TermShape::gaussian || term.shape == TermShape::bell || term.shape == TermShape::sigmoid;
-  if (isMiddle && isMoved(0)) {
+  const bool withMiddle = isMiddle && std::ranges::find(handles, 0u) != handles.end();
+  if (handles.size() == 1 || (isMiddle && !withMiddle)) {
+    const std::vector<EditPoint> from = handlesOf(term, view);
+    for (const std::size_t i : handles) {
+      if (from[i].open && dx == 0) continue;
+      moved = withHandleAt(moved, i, withoutDust(from[i].x + dx), withoutDust(from[i].y + dy), gap);
+    }
+    return moved;
+  }
+  if (withMiddle) {
     n[0] = withoutDust(n[0] + dx);
     return moved;
   }
-  if (isMiddle || (term.shape == TermShape::ramp && handles.size() < 2)) {
-    const std::vector<TermHandle> from = handlesOf(term, {});
-    for (const std::size_t i : handles)
-      moved = withHandleAt(moved, i, withoutDust(from[i].x + dx), withoutDust(from[i].y + dy), gap);
-    return moved;
-  }
-  const std::size_t stride = term.shape == TermShape::points ? 2 : 1, count = n.size() / stride;
-  for (const std::size_t i : handles) {
-    const double x = n[stride * i];
-    // A neighbour that moves too keeps its distance.
-    const bool free = dx > 0 ? i + 1 == count || isMoved(i + 1) : i == 0 || isMoved(i - 1);
-    if (!free && std::isfinite(x)) {
-      const double room = withHandleAt(term, i, x + dx, 0, gap).numbers[stride * i] - x;
-      dx = dx > 0 ? std::clamp(room, 0.0, dx) : std::clamp(room, dx, 0.0);
-    }
-    if (stride == 2) dy = std::clamp(dy, -n[2 * i + 1], 1 - n[2 * i + 1]);
+  const std::size_t stride = strideOf(term);
+  dx = xOf(term, gap).step(handles, dx);
+  if (stride == 2) {
+    std::vector<double> y;
+    for (const std::size_t i : handles) y.push_back(n[2 * i + 1]);
+    dy = membershipStep(y, dy);
   }
   for (const std::size_t i : handles) {
     n[stride * i] = withoutDust(n[stride * i] + dx);

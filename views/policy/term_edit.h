@@ -6,33 +6,25 @@
 #include <vector>
 
 #include "trimtab/policy/policy.h"
+#include "views/editors/edit_points.h"
 #include "views/model/rounded.h"
 
 /// What the editor of terms does to their numbers; no widgets here.
 namespace trimtab::views {
 
-/// A characteristic point of a term, which a person can take hold of.
-struct TermHandle {
-  double x = 0, y = 0;
-  bool movesX = true, movesY = false;
-  /// A foot at infinity, which is drawn where the view ends. Moving it makes it finite.
-  bool open = false;
-  QString name;  ///< such as "left foot"
-};
-
 /// Returns the characteristic points of a term: those of a polygon, feet and tops, or the middle and the
 /// places that give width and slope. Empty for numbers that the shape does not take.
-std::vector<TermHandle> handlesOf(const PolicyTerm& term, Range view);
+std::vector<EditPoint> handlesOf(const PolicyTerm& term, Range view);
 
 /// Returns the term with one point moved to (x, y), or as near as its neighbours allow: `gap` stays between
 /// them, so that every result compiles. What the point does not move along is ignored.
 PolicyTerm withHandleAt(const PolicyTerm& term, std::size_t handle, double x, double y, double gap);
 
 /// Returns the term with several points moved together by (dx, dy), or by as much as the first that meets a
-/// neighbour or an end of the membership allows. A foot at infinity stays there; points that give a width go
-/// with their middle.
+/// neighbour or an end of the membership allows. A foot at infinity stays there unless it is moved alone,
+/// from the end of the view; points that give a width go with their middle.
 PolicyTerm withHandlesMoved(const PolicyTerm& term, const std::vector<std::size_t>& handles, double dx,
-                            double dy, double gap);
+                            double dy, double gap, Range view = {});
 
 /// Returns the term in another shape with about the same feet, tops and half-way points.
 PolicyTerm withShape(const PolicyTerm& term, TermShape shape, Range view);

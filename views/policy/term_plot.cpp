@@ -6,6 +6,7 @@
 
 #include "trimtab/preset/policy_lines.h"
 #include "trimtab/units/not_finite.h"
+#include "views/model/keys.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -22,32 +23,25 @@ QColor TermPlot::colourOf(std::size_t place, const QPalette& palette) {
 }
 
 TermPlot::TermPlot(PolicyDraft& policy, const PolicyTrack& track, QWidget* parent)
-    : Plot(tr("Terms of a signal"), Keyboard::used, parent),
+    : PointPlot(tr("Terms of a signal"), policy.draft(), key::kPolicyTerms, parent),
       policy_(policy),
-      track_(track),
-      hand_(policy.draft()) {
+      track_(track) {
   makeItems();
   readGhosts();
+  fitView();
   restyle();
   connect(&policy_, &PolicyDraft::termsChanged, this, [this] {
-    if (termAt(term_) == nullptr) select(-1);
-    if (fitted_ && !hand_.moving())
-      fitView();
-    else
-      redraw();
+    if (termAt(term_) == nullptr) selectTerm(-1);
+    fitViewUnlessMoving();
   });
-  connect(&policy_.draft(), &Draft::findingsChanged, this, [this] { drawPoints(); });
-  connect(&policy_.draft(), &Draft::loaded, this, &TermPlot::fitView);
-  connect(&policy_.draft(), &Draft::referencesChanged, this, [this] {
+  connect(&draft(), &Draft::referencesChanged, this, [this] {
     readGhosts();
     redraw();
   });
 }
 
 void TermPlot::makeItems() {
-  addOverlays({"live", "hover"});
   addLegendAbove();
-  ghosts_.emplace(*this, policy_.draft());
   yAxis->setLabel(tr("Membership"));
   yAxis->setRange(kTrailLow, kTop);
   const QSharedPointer<QCPAxisTickerFixed> ticks(new QCPAxisTickerFixed);
@@ -55,28 +49,12 @@ void TermPlot::makeItems() {
   yAxis->setTicker(ticks);
   xAxis->setNumberFormat(QStringLiteral("gb"));
   xAxis->setNumberPrecision(6);
-  axisRect()->setRangeZoom(Qt::Horizontal);
-  axisRect()->setRangeZoomFactor(kWheelZoom);
-  setInteraction(QCP::iRangeZoom);
-  axisRect()->setupFullAxesBox();
-  connect(this, &QCustomPlot::mouseWheel, this, [this] { fitted_ = false; });
-  connect(xAxis, qOverload<const QCPRange&>(&QCPAxis::rangeChanged), this, [this] {
-    if (!fitted_) redraw();
-  });
   Parts& p = parts_;
-  p.points = addGraph();
-  p.chosen = addGraph();
-  for (QCPGraph* g : {p.points, p.chosen}) {
-    g->setLineStyle(QCPGraph::lsNone);
-    g->setAdaptiveSampling(false);
-  }
   for (QCPItemStraightLine*& limit : p.limits) limit = addLine("main", axisRect());
   p.trail = new QCPCurve(xAxis, yAxis);
   p.trail->setLayer(QStringLiteral("live"));
   p.live = addLine("live", axisRect());
   p.live->setVisible(false);
-  p.liveText = addReadout("live", QMargins(4, 1, 4, 1));
-  p.readout = addReadout("hover", QMargins(5, 3, 5, 3));
   p.empty = new QCPItemText(this);
   p.empty->position->setType(QCPItemPosition::ptAxisRectRatio);
   p.empty->position->setCoords(0.5, 0.4);
@@ -84,7 +62,6 @@ void TermPlot::makeItems() {
 
 void TermPlot::restyle() {
   applyThemeWithLegendAbove();
-  ghosts_->restyle(this->palette());
   const QPalette& palette = this->palette();
   const QColor base = palette.color(QPalette::Base), ink = palette.color(QPalette::Text),
                live = liveColour(palette);
@@ -92,42 +69,22 @@ void TermPlot::restyle() {
   p.trail->setPen(QPen(live, 1.6));
   p.live->setPen(QPen(live, 1.2, Qt::DashLine));
   for (QCPItemStraightLine* limit : p.limits) limit->setPen(QPen(blend(base, ink, 0.45), 1, Qt::DotLine));
-  p.liveText->setColor(live);
-  p.liveText->setPen(QPen(live));
-  p.liveText->setBrush(base);
-  p.liveText->setFont(font());
   p.empty->setColor(quietColour(palette));
   p.empty->setFont(font());
-  redraw();
+  PointPlot::restyle();
 }
 
 void TermPlot::setSignal(Signal signal) {
   if (signal == signal_ && term_ >= 0) return redraw();
   signal_ = signal;
   term_ = -1;
-  hand_.select(-1, 0);
-  hand_.endDrag();
-  hand_.endNudge();
+  forgetSelection();
   drawnTrack_ = 0;
   const std::vector<std::size_t> terms = policy_.termsOf(signal);
   if (!terms.empty()) term_ = static_cast<int>(terms.front());
   value_ = std::numeric_limits<double>::quiet_NaN();
   fitView();
-  emit selectedChanged(term_, handle());
-}
-
-void TermPlot::fitView() {
-  fitted_ = true;
-  const Range view = viewOf(signal_, policy_.policy().terms);
-  xAxis->setRange(view.low, view.high);
-  redraw();
-}
-
-bool TermPlot::zoomByKey(double factor) {
-  fitted_ = false;
-  xAxis->scaleRange(factor);
-  redraw();
-  return true;
+  emit selectedChanged(selected());
 }
 
 const PolicyTerm* TermPlot::termAt(int line) const {
@@ -137,28 +94,23 @@ const PolicyTerm* TermPlot::termAt(int line) const {
   return term && term->signal == signal_ ? &*term : nullptr;
 }
 
-std::vector<TermHandle> TermPlot::handles() const {
+std::vector<EditPoint> TermPlot::points() const {
   const PolicyTerm* term = termAt(term_);
-  return term != nullptr ? handlesOf(*term, view()) : std::vector<TermHandle>{};
-}
-
-QPointF TermPlot::pixelOf(double x, double y) const {
-  return {xAxis->coordToPixel(x), yAxis->coordToPixel(y)};
+  return term != nullptr ? handlesOf(*term, view()) : std::vector<EditPoint>{};
 }
 
 void TermPlot::redraw() {
   const SignalRow& row = rowOf(signal_);
   xAxis->setLabel(fromView(row.label) + inParentheses(row.unit));
-  const int label = fontMetrics().horizontalAdvance(QStringLiteral("-000000 "));
-  xAxis->ticker()->setTickCount(std::clamp(axisRect()->width() / label, 2, 8));
   putVertical(*parts_.limits[0], row.range.low);
   putVertical(*parts_.limits[1], row.range.high);
   setAccessibleName(tr("Terms of %1").arg(fromView(row.label)));
   drawCurves();
-  drawPoints();
   placeLive();
   drawTrail();
-  emit picturedTermsChanged();
+  const std::vector<std::size_t> lines = policy_.termsOf(signal_);
+  const auto place = std::ranges::find(lines, static_cast<std::size_t>(std::max(term_, 0)));
+  showPoints(colourOf(static_cast<std::size_t>(place - lines.begin()), palette()));
 }
 
 void TermPlot::drawCurves() {
@@ -176,11 +128,7 @@ void TermPlot::drawCurves() {
     p.marks.back()->setLineStyle(QCPGraph::lsNone);
     p.marks.back()->setLayer(QStringLiteral("live"));
   }
-  const QCPRange range = xAxis->range();
-  const int steps = std::max(200, axisRect()->width());
   const QColor base = palette().color(QPalette::Base);
-  QVector<double> even;
-  for (int s = 0; s <= steps; ++s) even << range.lower + range.size() * s / steps;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     QCPGraph& curve = *p.curves[qsizetype(i)];
     const PolicyDraft::TermLine& line = policy_.terms()[lines[i]];
@@ -193,16 +141,14 @@ void TermPlot::drawCurves() {
     p.marks[qsizetype(i)]->setScatterStyle({QCPScatterStyle::ssDiamond, QPen(base, 1), QBrush(colour), 12});
     QVector<double> at, y;
     if (line.sound) {
-      at = even;
-      for (const TermHandle& handle : handlesOf(term, {range.lower, range.upper}))
-        if (range.contains(handle.x))
-          at << std::nextafter(handle.x, -kInfinity) << handle.x << std::nextafter(handle.x, kInfinity);
-      std::sort(at.begin(), at.end());
+      QVector<double> jumps;
+      for (const EditPoint& point : handlesOf(term, view())) jumps << point.x;
+      at = samples(jumps);
       for (const double x : at) y << membershipOf(term, x);
     }
     curve.setData(at, y, true);
   }
-  drawGhosts(even);
+  drawGhosts(samples({}));
   parts_.empty->setVisible(lines.empty());
   parts_.empty->setText(tr("%1 has no terms. “Add” makes one.").arg(fromView(rowOf(signal_).label)));
   arrangeLegendAbove();
@@ -211,7 +157,7 @@ void TermPlot::drawCurves() {
 void TermPlot::readGhosts() {
   for (std::size_t i = 0; i < kGhosts.size(); ++i) {
     ghostTerms_[i].clear();
-    const TuningParameters* values = policy_.draft().reference(kGhosts[i]);
+    const TuningParameters* values = draft().reference(kGhosts[i]);
     if (!values) continue;
     if (const auto policy = policyOf(values->policy)) ghostTerms_[i] = policy->terms;
     std::erase_if(ghostTerms_[i], [](const PolicyTerm& term) { return !isSound(term); });
@@ -231,47 +177,25 @@ void TermPlot::drawGhosts(const QVector<double>& at) {
       for (const double x : at) line << QPointF(x, membershipOf(term, x));
       drawn << line;
     }
-    ghosts_->show(kGhosts[i], drawn);
+    behind().show(kGhosts[i], drawn);
   }
 }
 
-void TermPlot::drawPoints() {
-  const std::vector<std::size_t> lines = policy_.termsOf(signal_);
-  const auto place = std::find(lines.begin(), lines.end(), static_cast<std::size_t>(std::max(term_, 0)));
-  const bool broken = policy_.draft().isBroken() && !policy_.draft().findingsOf("policy.terms").empty();
-  const QColor base = palette().color(QPalette::Base);
-  const QColor colour =
-      broken ? errorColour(palette()) : colourOf(static_cast<std::size_t>(place - lines.begin()), palette());
-  parts_.points->setScatterStyle({QCPScatterStyle::ssSquare, QPen(colour, 1.6), QBrush(base), 9});
-  parts_.chosen->setScatterStyle({QCPScatterStyle::ssSquare, QPen(colour, 1.6), QBrush(colour), 12});
-  const std::vector<TermHandle> points = handles();
-  QVector<double> x, y;
-  for (const TermHandle& handle : points) x << handle.x, y << handle.y;
-  parts_.points->setData(x, y);
-  if (handle() >= static_cast<int>(points.size())) hand_.select(-1, 0);
-  parts_.chosen->data()->clear();
-  for (const std::size_t i : group()) parts_.chosen->addData(points[i].x, points[i].y);
-  describe();
-  replot(rpQueuedReplot);
-}
-
-void TermPlot::describe() {
+QString TermPlot::describe() const {
   QString text;
   if (const PolicyTerm* term = termAt(term_)) {
     text = tr("%1, %2. ").arg(QString::fromStdString(term->name), QString::fromStdString(shapeText(*term)));
-    const std::vector<TermHandle> points = handles();
-    if (handle() >= 0 && handle() < static_cast<int>(points.size())) {
-      const TermHandle& at = points[static_cast<std::size_t>(handle())];
+    if (selected() >= 0) {
+      const EditPoint at = points()[static_cast<std::size_t>(selected())];
       text += tr("%1: %2, membership %3. ").arg(at.name, signalText(signal_, at.x), numberText(at.y, 3));
     }
     if (const std::size_t count = group().size(); count > 1)
       text += tr("%1 points are selected. ").arg(count);
   }
-  setAccessibleDescription(
-      text +
-      tr("Tab selects a point, Ctrl+A all of them, Page Up and Page Down a term; arrow keys move what is "
-         "selected (Shift: ten times as far; Ctrl: to a point of another term), Enter types the numbers, "
-         "Insert and Delete add and remove a point, A and Ctrl+Delete a term."));
+  return text +
+         tr("Tab selects a point, Ctrl+A all of them, Page Up and Page Down a term; arrow keys move what is "
+            "selected (Shift: ten times as far; Ctrl: to a point of another term), Enter types the numbers, "
+            "Insert and Delete add and remove a point, A and Ctrl+Delete a term.");
 }
 
 void TermPlot::showLive(const PolicyLive& live) {
@@ -290,7 +214,7 @@ void TermPlot::placeLive() {
   const SignalRow& row = rowOf(signal_);
   const double counts = std::clamp(value_, row.range.low, row.range.high);
   parts_.live->setVisible(known && range.contains(counts));
-  parts_.liveText->setVisible(known);
+  liveText()->setVisible(known);
   const std::vector<std::size_t> lines = policy_.termsOf(signal_);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     QCPGraph& mark = *parts_.marks[qsizetype(i)];
@@ -302,14 +226,9 @@ void TermPlot::placeLive() {
   }
   if (!known) return;
   putVertical(*parts_.live, counts);
-  QString text = signalText(signal_, value_);
-  if (value_ > range.upper) text += QStringLiteral(" →");
-  if (value_ < range.lower) text.prepend(QStringLiteral("← "));
-  parts_.liveText->setText(text);
-  const double x = xAxis->coordToPixel(std::clamp(counts, range.lower, range.upper));
-  const bool left = x > axisRect()->center().x();
-  parts_.liveText->setPositionAlignment((left ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignTop);
-  parts_.liveText->position->setCoords(x + (left ? -5 : 5), axisRect()->top() + 3);
+  putLiveText(value_, signalText(signal_, value_),
+              {xAxis->coordToPixel(std::clamp(counts, range.lower, range.upper)), axisRect()->top() - 6.0},
+              false);
 }
 
 void TermPlot::drawTrail() {

@@ -94,8 +94,8 @@ TermsPage::TermsPage(PolicyDraft& policy, TermPlot& plot, QWidget* parent)
 
   setFocusProxy(table_);
   makeActions();
-  connect(&plot_, &TermPlot::selectedChanged, this, [this](int term) {
-    const int row = model_->rowOfLine(term);
+  connect(&plot_, &TermPlot::selectedChanged, this, [this] {
+    const int row = model_->rowOfLine(plot_.term());
     if (row < 0)
       table_->clearSelection();
     else if (table_->currentIndex().row() != row)
@@ -106,7 +106,7 @@ TermsPage::TermsPage(PolicyDraft& policy, TermPlot& plot, QWidget* parent)
   });
   connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
           [this](const QModelIndex& current) {
-            if (current.isValid()) plot_.select(model_->lineOf(current.row()), plot_.handle());
+            if (current.isValid()) plot_.selectTerm(model_->lineOf(current.row()), plot_.selected());
             showNote();
           });
   connect(&plot_, &TermPlot::refused, this, &TermsPage::say);
@@ -149,7 +149,7 @@ void TermsPage::addTerm() {
   const PolicyTerm term = newTerm(signal, policy_.freeName(signal, "term"), plot_.view());
   const std::size_t line = policy_.terms().size();
   policy_.insertTerm(line, term, tr("Add Term"));
-  plot_.select(static_cast<int>(line), 0);
+  plot_.selectTerm(static_cast<int>(line), 0);
 }
 
 void TermsPage::duplicateTerm() {
@@ -160,7 +160,7 @@ void TermsPage::duplicateTerm() {
   PolicyTerm copy = *policy_.terms()[static_cast<std::size_t>(line)].term;
   copy.name = policy_.freeName(copy.signal, copy.name);
   policy_.insertTerm(static_cast<std::size_t>(line) + 1, copy, tr("Duplicate Term"));
-  plot_.select(line + 1, 0);
+  plot_.selectTerm(line + 1, 0);
 }
 
 void TermsPage::removeTerm() {

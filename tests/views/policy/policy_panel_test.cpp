@@ -241,8 +241,7 @@ TEST_F(PolicyPanelTest, leversAndSharesSayWhatTheRulesDo) {
   EXPECT_TRUE(test::eventually([&] {
     return levers()[1].contains(QStringLiteral("rule 1 75 %, rule 2 25 %"));
   })) << levers().join('\n').toStdString();
-  EXPECT_TRUE(levers()[1].startsWith(QStringLiteral("Allowed error 3.38 px")))
-      << levers()[1].toStdString();
+  EXPECT_TRUE(levers()[1].startsWith(QStringLiteral("Allowed error 3.38 px"))) << levers()[1].toStdString();
   EXPECT_TRUE(levers()[3].contains(QStringLiteral("rule 2 100 %"))) << levers()[3].toStdString();
   EXPECT_TRUE(levers()[6].contains(QStringLiteral("no rule sets it"))) << levers()[6].toStdString();
   parts().tabs->setCurrentWidget(parts().shares);
@@ -375,8 +374,8 @@ TEST_F(PolicyPanelTest, fortyRulesFollowADrag) {
   for (int i = 0; i < 40; ++i) panel_.showFrame(flight_.next(draft_.active()));
   QCoreApplication::processEvents();
   TermPlot& plot = *parts().plot;
-  plot.select(1);
-  const QPointF from = plot.pixelOf(plot.handles()[1].x, 1);
+  plot.selectTerm(1);
+  const QPointF from = plot.pixelOf(plot.points()[1].x, 1);
   QTest::mousePress(&plot, Qt::LeftButton, Qt::NoModifier, from.toPoint());
   QElapsedTimer timer;
   timer.start();

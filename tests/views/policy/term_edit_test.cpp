@@ -36,9 +36,9 @@ const char* const kShapes[] = {"points 100 0 300 1 500 0.25",
 TEST(TermEdit, pointsLieOnTheCurveOrAtItsFeet) {
   for (const char* shape : kShapes) {
     const PolicyTerm t = term(shape);
-    const std::vector<TermHandle> handles = handlesOf(t, kView);
+    const std::vector<EditPoint> handles = handlesOf(t, kView);
     ASSERT_GE(handles.size(), 2u) << shape;
-    for (const TermHandle& handle : handles) {
+    for (const EditPoint& handle : handles) {
       EXPECT_NEAR(membershipOf(t, handle.x), handle.y, 1e-6) << shape << ": " << handle.name.toStdString();
       EXPECT_FALSE(handle.name.isEmpty());
       EXPECT_TRUE(handle.movesX || handle.movesY);
@@ -49,13 +49,13 @@ TEST(TermEdit, pointsLieOnTheCurveOrAtItsFeet) {
 TEST(TermEdit, aMovedPointIsWhereItWasMovedTo) {
   for (const char* shape : kShapes) {
     const PolicyTerm t = term(shape);
-    const std::vector<TermHandle> handles = handlesOf(t, kView);
+    const std::vector<EditPoint> handles = handlesOf(t, kView);
     for (std::size_t i = 0; i < handles.size(); ++i) {
       const double x = handles[i].x + 20, y = std::clamp(handles[i].y - 0.1, 0.05, 0.95);
       const PolicyTerm moved = withHandleAt(t, i, x, y, 1);
       EXPECT_TRUE(isSound(moved)) << shapeText(moved);
       EXPECT_NE(moved, t) << shape << " " << i;
-      const TermHandle after = handlesOf(moved, kView)[i];
+      const EditPoint after = handlesOf(moved, kView)[i];
       if (handles[i].movesX) {
         EXPECT_NEAR(after.x, x, 0.2) << shape << " " << i;
       }

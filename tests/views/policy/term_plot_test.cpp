@@ -36,7 +36,7 @@ class TermPlotTest : public testing::Test {
   TermPlot& plot() { return *panel_.parts().plot; }
   TermsPage& page() { return *panel_.parts().terms; }
   QPointF pixel(std::size_t handle) {
-    const TermHandle at = plot().handles().at(handle);
+    const EditPoint at = plot().points().at(handle);
     return plot().pixelOf(at.x, at.y);
   }
   std::string line(std::size_t i) { return draft_.parameters().policy.terms.line.at(i); }
@@ -55,17 +55,17 @@ TEST_F(TermPlotTest, everyPointOfEveryShapeIsDraggedInOneStepAndUndone) {
     draft_.setValue("policy.terms",
                     TextLines{{std::string("above_ground low = ") + shape,
                                "above_ground high = ramp 3000 3500", "speed fast = ramp 200 400"}});
-    plot().select(0);
-    for (std::size_t i = 0; i < plot().handles().size(); ++i) {
+    plot().selectTerm(0);
+    for (std::size_t i = 0; i < plot().points().size(); ++i) {
       const std::string before = line(0);
       const int steps = draft_.undoStack().index();
-      const TermHandle from = plot().handles()[i];
+      const EditPoint from = plot().points()[i];
       drag(plot(), pixel(i), pixel(i) + QPointF(-23, from.movesY ? 30 : 0));
       EXPECT_NE(line(0), before) << shape << ", " << from.name.toStdString();
       EXPECT_EQ(draft_.undoStack().index(), steps + 1) << shape << ", one drag is one step";
       const double perPixel = plot().xAxis->range().size() / plot().axisRect()->width();
       if (from.movesX) {
-        EXPECT_NEAR(plot().handles()[i].x - from.x, -23 * perPixel, 6 * perPixel) << shape;
+        EXPECT_NEAR(plot().points()[i].x - from.x, -23 * perPixel, 6 * perPixel) << shape;
       }
       EXPECT_FALSE(draft_.isBroken());
       EXPECT_EQ(draft_.active()->policy.terms.line[0], line(0)) << "what runs follows the drag";
@@ -77,7 +77,7 @@ TEST_F(TermPlotTest, everyPointOfEveryShapeIsDraggedInOneStepAndUndone) {
 }
 
 TEST_F(TermPlotTest, escapeCancelsADragWithoutAStep) {
-  plot().select(0);
+  plot().selectTerm(0);
   const std::string before = line(0);
   drag(plot(), pixel(0), pixel(0) + QPointF(30, 0), false);
   EXPECT_NE(line(0), before);
@@ -88,7 +88,7 @@ TEST_F(TermPlotTest, escapeCancelsADragWithoutAStep) {
 }
 
 TEST_F(TermPlotTest, aPointSnapsToThoseOfOtherTermsUnlessAltIsHeld) {
-  plot().select(0, 0);  // low's foot at 2000; high's top is there too
+  plot().selectTerm(0, 0);  // low's foot at 2000; high's top is there too
   drag(plot(), pixel(0), pixel(0) + QPointF(40, 0));
   EXPECT_NE(line(0), "above_ground low = ramp 2000 1000");
   const QPointF back = plot().pixelOf(2000, 0) + QPointF(4, 0);
@@ -111,18 +111,18 @@ TEST_F(TermPlotTest, theKeyboardSelectsNudgesAddsAndRemoves) {
   EXPECT_EQ(plot().term(), 1);
   press(plot(), Qt::Key_PageDown);
   EXPECT_EQ(plot().term(), 0) << "around";
-  EXPECT_EQ(plot().handle(), 0);
+  EXPECT_EQ(plot().selected(), 0);
   press(plot(), Qt::Key_Tab);
-  EXPECT_EQ(plot().handle(), 1);
-  const double before = plot().handles()[1].x;
+  EXPECT_EQ(plot().selected(), 1);
+  const double before = plot().points()[1].x;
   press(plot(), Qt::Key_Left);
-  const double step = before - plot().handles()[1].x;
+  const double step = before - plot().points()[1].x;
   EXPECT_GT(step, 0);
   press(plot(), Qt::Key_Left, Qt::ShiftModifier);
-  EXPECT_NEAR(before - plot().handles()[1].x, 11 * step, step / 10);
+  EXPECT_NEAR(before - plot().points()[1].x, 11 * step, step / 10);
   EXPECT_EQ(draft_.undoStack().count(), 2);
   press(plot(), Qt::Key_Tab);
-  EXPECT_EQ(plot().handle(), 1) << "Tab leaves behind the last point";
+  EXPECT_EQ(plot().selected(), 1) << "Tab leaves behind the last point";
   QSignalSpy refused(&plot(), &TermPlot::refused);
   press(plot(), Qt::Key_Delete);
   EXPECT_EQ(refused.count(), 1) << "a ramp keeps its points";
@@ -130,7 +130,7 @@ TEST_F(TermPlotTest, theKeyboardSelectsNudgesAddsAndRemoves) {
 
   draft_.setValue("policy.terms",
                   TextLines{{"above_ground low = points 0 1 1000 0", "speed fast = ramp 200 400"}});
-  plot().select(0, 0);
+  plot().selectTerm(0, 0);
   press(plot(), Qt::Key_Insert);
   EXPECT_EQ(line(0), "above_ground low = points 0 1 500 0.5 1000 0");
   press(plot(), Qt::Key_Up);
@@ -143,16 +143,16 @@ TEST_F(TermPlotTest, severalPointsMoveAndGoTogether) {
   draft_.setValue("policy.terms", TextLines{{"above_ground low = points 0 1 500 0.5 1000 0.25 2000 0",
                                              "speed fast = ramp 200 400"}});
   const std::string before = line(0);
-  plot().select(0, 1);
+  plot().selectTerm(0, 1);
   draft_.undoStack().clear();
   using Group = std::vector<std::size_t>;
   QTest::mouseClick(&plot(), Qt::LeftButton, Qt::ControlModifier, pixel(2).toPoint());
   EXPECT_EQ(plot().group(), (Group{1, 2}));
-  EXPECT_EQ(plot().handle(), 2) << "the last one that was clicked is followed";
+  EXPECT_EQ(plot().selected(), 2) << "the last one that was clicked is followed";
   EXPECT_TRUE(plot().accessibleDescription().contains("2 points are selected"));
-  const std::vector<TermHandle> from = plot().handles();
+  const std::vector<EditPoint> from = plot().points();
   drag(plot(), pixel(1), pixel(1) + QPointF(30, 0));
-  const std::vector<TermHandle> to = plot().handles();
+  const std::vector<EditPoint> to = plot().points();
   EXPECT_GT(to[1].x, from[1].x);
   EXPECT_DOUBLE_EQ(to[2].x - to[1].x, 500);
   EXPECT_EQ(to[0].x, 0);
@@ -178,16 +178,16 @@ TEST_F(TermPlotTest, severalPointsMoveAndGoTogether) {
   press(plot(), Qt::Key_Delete);
   EXPECT_EQ(refused.count(), 1) << "two points stay";
   press(plot(), Qt::Key_Right);
-  EXPECT_NEAR(plot().handles()[1].x - plot().handles()[0].x, 1000, 1e-9);
+  EXPECT_NEAR(plot().points()[1].x - plot().points()[0].x, 1000, 1e-9);
   QTest::mouseClick(&plot(), Qt::LeftButton, Qt::NoModifier, plot().pixelOf(600, 0.6).toPoint());
   EXPECT_EQ(plot().group(), Group{});
 }
 
 TEST_F(TermPlotTest, aShapeIsCopiedToAnotherTerm) {
   plot().setFocus();
-  plot().select(1);
+  plot().selectTerm(1);
   press(plot(), Qt::Key_C, Qt::ControlModifier);
-  plot().select(0);
+  plot().selectTerm(0);
   press(plot(), Qt::Key_V, Qt::ControlModifier);
   EXPECT_EQ(line(0), "above_ground low = ramp 1000 2000");
   QApplication::clipboard()->setText(QStringLiteral("triangle 5 4 3"));
@@ -287,7 +287,7 @@ TEST_F(TermPlotTest, theFilesTermStaysBehindTheOneThatIsDragged) {
 
 TEST_F(TermPlotTest, escapeAfterTheDraggedTermWasRemovedChangesNothing) {
   draft_.setValue("policy.terms", TextLines{{"above_ground low = triangle 500 1500 2500"}});
-  plot().select(0);
+  plot().selectTerm(0);
   drag(plot(), pixel(1), pixel(1) + QPointF(20, 0), false);
   press(plot(), Qt::Key_Delete, Qt::ControlModifier);
   ASSERT_TRUE(draft_.parameters().policy.terms.line.empty());
