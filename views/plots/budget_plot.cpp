@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
 /// From this width on the parts are beside each other.
-constexpr int kWidePx = 560, kPartPx = 96;
+constexpr int kBesidePx = 560, kPartPx = 96;
 
 /// Returns what all but one value in fifty keep to: a spike does not flatten the plot.
 double mostOf(std::vector<double>& values) {
@@ -116,7 +116,7 @@ QSize BudgetPlot::minimumSizeHint() const {
 }
 
 void BudgetPlot::resized() {
-  if (const bool wide = width() >= kWidePx; std::exchange(wide_, wide) != wide) arrangeParts();
+  if (const bool wide = width() >= kBesidePx; std::exchange(wide_, wide) != wide) arrangeParts();
   arrangeLegendAbove();
 }
 
