@@ -50,7 +50,7 @@ class Motion : public Bench {
 };
 
 TEST_F(Motion, aSweepUnderTheFreeCameraFillsStacksLowersAndRaises) {
-  w().dock(QStringLiteral("motion"))->raise();
+  workbench::raiseDock(panel());
   panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
   panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
   emit panel().sourceBox().activated(MotionPanel::sweep);
@@ -98,7 +98,7 @@ TEST_F(Motion, anEditLeavesTheRateOfTheHeadInEveryFrame) {
 
 TEST_F(Motion, aSweepIsRecordedAndFlownAgainWithItsLineOfSight) {
   auto& budget = *w().findChild<views::BudgetPanel*>();
-  w().dock(QStringLiteral("motion"))->raise();
+  workbench::raiseDock(panel());
   panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
   panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
   emit panel().sourceBox().activated(MotionPanel::sweep);

@@ -69,7 +69,7 @@ TEST_F(Rules, thePresetDockLeadsToTheEditorOfAList) {
   auto* const parameters = w().findChild<views::ParameterTable*>();
   dock("preset").raise();
   for (const auto& [key, name] : {std::pair{"fuzzy.rules", "policy"},
-                                  {"fuzzy.bands_px", "depth_map"},
+                                  {"fuzzy.bands_px", "culling"},
                                   {"fuzzy.pitch.curve_deg", "policy"},
                                   {"policy.terms", "policy"}}) {
     parameters->line(key)->editor()->parentWidget()->findChild<QToolButton*>()->click();

@@ -157,13 +157,15 @@ void DecisionPanel::refresh() {
   const FrameDecision& d = frame_.decision;
   const TuningParameters& p = *draft_.active();
   if (any_) {
+    const QString reason = QString::fromStdString(explain(d, draft_.active()));
+    const QString why = d.occlusionResolution && frame_.result ? whyNoDepthMap(frame_, p) : QString();
+    // A size would say that a map of it was drawn.
     scheme_->setText(d.scheme == Scheme::frustum ? tr("Frustum: view-frustum culling alone")
+                     : !why.isEmpty()            ? tr("Dynamic: no depth map was needed")
                      : d.occlusionResolution     ? tr("Dynamic: depth map %1 × %2 px")
                                                    .arg(d.occlusionResolution->widthPx)
                                                    .arg(d.occlusionResolution->heightPx)
                                              : tr("Dynamic"));
-    const QString reason = QString::fromStdString(explain(d, draft_.active()));
-    const QString why = d.occlusionResolution && frame_.result ? whyNoDepthMap(frame_, p) : QString();
     reason_->setText(why.isEmpty() ? reason : reason + QStringLiteral(". ") + why);
     lead_->setVisible(!why.isEmpty());
   }

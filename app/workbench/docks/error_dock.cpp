@@ -433,7 +433,10 @@ QString ErrorDock::report() const {
 }
 
 void ErrorDock::openReport() {
-  if (const QString file = report(); !file.isEmpty()) QDesktopServices::openUrl(QUrl::fromLocalFile(file));
+  const QString file = report();
+  if (file.isEmpty() || QDesktopServices::openUrl(QUrl::fromLocalFile(file))) return;
+  emit refused(tr("The report cannot be shown"),
+               {{Severity::error, file.toStdString(), {}, "a program that shows HTML", "none that starts"}});
 }
 
 }  // namespace trimtab::workbench

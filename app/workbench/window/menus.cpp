@@ -6,11 +6,13 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QFileInfo>
+#include <QKeyEvent>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QStyle>
 #include <QToolBar>
+#include <QToolButton>
 
 #include "app/workbench/controllers/controllers.h"
 #include "app/workbench/controllers/recent_files.h"
@@ -74,6 +76,19 @@ Menus::Menus(QMainWindow& window, const Workplace& workplace, const Controllers&
   makeViewMenu();
   makeFlightMenu();
   makeHelpMenu();
+  qApp->installEventFilter(this);
+}
+
+/// Where a text is edited, X11 gives Ctrl+E and Ctrl+K to the cursor. Here they are commands everywhere.
+bool Menus::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto& key = static_cast<const QKeyEvent&>(*event);
+    if (key.modifiers() == Qt::ControlModifier && (key.key() == Qt::Key_E || key.key() == Qt::Key_K)) {
+      event->ignore();
+      return true;
+    }
+  }
+  return QObject::eventFilter(watched, event);
 }
 
 void Menus::add(QMenu& menu, std::initializer_list<Command> commands) {
@@ -111,18 +126,14 @@ void Menus::makeFileMenu() {
               tr("Exports to the last target of this preset without a question; asks if there is none"),
               &exporting},
              {tr("&Export for an image generator..."), tr("Ctrl+Shift+E"), [&] { document.askExport(); }},
-             {tr("&Import rules..."),
+             {tr("&Import..."),
               {},
-              [this] { panels_.policy->parts().scheme->rules().askAndImport(); },
-              tr("Curves and rules of the culling scheme")},
+              [this] { emit importAsked(); },
+              tr("A policy, the rules of the culling scheme, or whatever else this program can open")},
              {tr("Export r&ules..."),
               {},
               [this] { panels_.policy->parts().scheme->rules().askAndExport(); },
               tr("Curves and rules of the culling scheme")},
-             {tr("Import polic&y..."),
-              {},
-              [this] { panels_.policy->askAndImport(); },
-              tr("Terms and rules that set the levers")},
              {tr("Export poli&cy..."),
               {},
               [this] { panels_.policy->askAndExport(); },
@@ -323,7 +334,13 @@ void Menus::makeViewMenu() {
   auto* bar = window_.addToolBar(tr("View"));
   bar->setObjectName(QStringLiteral("view_toolbar"));
   bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
-  bar->addActions({wireframe, bounds, byReason, byLevel, freeze, detach});
+  auto* colours = new QToolButton(bar);
+  colours->setText(tr("Overlays"));
+  colours->setToolTip(tr("Colours and lines over the image"));
+  colours->setPopupMode(QToolButton::InstantPopup);
+  colours->addActions({wireframe, bounds, byReason, byLevel, voids, squares});
+  bar->addWidget(colours);
+  bar->addActions({freeze, detach});
   panels_.terrain->setActions(terrainActions_, {byLevel, wireframe, bounds, voids, squares});
   panels_.culling->setActions({byReason, bounds, freeze, detach});
 }
@@ -389,7 +406,8 @@ void Menus::addDocks(QMenu& view) {
     go->setChecked(!each->isHidden());
     // A click toggles the mark by itself; what the dock does decides.
     connect(go, &QAction::triggered, each, [each, go] { go->setChecked(!each->isHidden()); });
-    connect(each->toggleViewAction(), &QAction::toggled, go, &QAction::setChecked);
+    // While a layout is put in place, Qt shows docks that it hides again.
+    connect(&docks, &QMenu::aboutToShow, each, [each, go] { go->setChecked(!each->isHidden()); });
   }
   add(docks, {{}, {tr("Show &every dock"), {}, [this] { emit everyDockAsked(); }}});
 }
