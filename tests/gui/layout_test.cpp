@@ -14,10 +14,11 @@
 #include "app/workbench/docks/error_dock.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/window/notice_bar.h"
+#include "app/workbench/window/palette_entries.h"
 #include "app/workbench/window/welcome.h"
 #include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
-#include "views/controls/number_box.h"
+#include "views/controls/parameter_line.h"
 #include "views/controls/parameter_table.h"
 #include "views/insets/depth_map_inset.h"
 #include "views/panels/culling_panel.h"
@@ -115,10 +116,9 @@ TEST_F(WorkbenchLayout, anEmptyDepthMapSaysWhoServesInstead) {
 
 TEST_F(WorkbenchLayout, aNumberBoxLeavesCtrlEToTheProgram) {
   ASSERT_NO_FATAL_FAILURE(activate());
-  workbench::raiseDock(*w().panels().parameters);
-  auto* const box = w().panels().parameters->findChild<views::NumberBox*>();
-  ASSERT_NE(box, nullptr);
-  ASSERT_TRUE(waitFor([&] { return box->isVisible(); }));
+  workbench::openParameter(*w().panels().parameters, "lod.scale");
+  QWidget* const box = w().panels().parameters->line("lod.scale")->editor();
+  ASSERT_TRUE(waitFor([&] { return box->isVisible(); }, 5000));
   box->setFocus();
   DialogCloser dialogs;
   QSignalSpy exported(command("Export again"), &QAction::triggered);
@@ -132,11 +132,11 @@ TEST_F(WorkbenchLayout, theMenuOfDocksTicksThoseThatAreShown) {
     w().workspaces().show(i);
     w().workspaces().reset();
     emit menu->aboutToShow();
-    for (const QDockWidget* dock : w().findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly))
-      for (const QAction* action : menu->actions())
-        if (action->text() == dock->windowTitle())
-          EXPECT_EQ(action->isChecked(), !dock->isHidden())
-              << dock->windowTitle().toStdString() << " in " << i;
+    for (const QAction* action : menu->actions())
+      for (const QDockWidget* dock : w().findChildren<QDockWidget*>()) {
+        if (action->text() != dock->windowTitle()) continue;
+        EXPECT_EQ(action->isChecked(), !dock->isHidden()) << dock->windowTitle().toStdString() << " in " << i;
+      }
   }
 }
 
@@ -157,7 +157,9 @@ TEST_F(WorkbenchLayout, theNumbersOfAPickedNodeGoWhenTheViewIsNoLongerFrozen) {
                        [&](const QLabel* label) { return label->text().contains(text); });
   };
   w().controllers().observer->setFrozen(true);
-  w().panels().culling->showPicked(views::PickedNode{.form = "tile", .number = 4711, .level = 3});
+  views::PickedNode node;
+  node.form = "tile";
+  w().panels().culling->showPicked(node);
   EXPECT_TRUE(says("tile"));
   w().controllers().observer->setFrozen(false);
   EXPECT_TRUE(says("Nothing is picked"));

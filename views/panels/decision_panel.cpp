@@ -41,6 +41,11 @@ QString policyReason(const PolicyOutcome& policy) {
   return text;
 }
 
+/// What a reason says after scheme and depth map.
+QString withoutOutcome(const QString& reason) {
+  return reason.mid(reason.indexOf(QStringLiteral(": ")) + 1).trimmed();
+}
+
 }  // namespace
 
 DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
@@ -147,8 +152,7 @@ void DecisionPanel::showFrame(const LiveFrame& frame) {
   if (log_->isChange(frame.decision)) {
     // Scheme and depth map have columns of their own.
     const QString reason = QString::fromStdString(explain(frame.decision, draft_.active()));
-    log_->append(frame.time, frame.input.state.packet, frame.decision,
-                 reason.mid(reason.indexOf(QStringLiteral(": ")) + 1).trimmed());
+    log_->append(frame.time, frame.input.state.packet, frame.decision, withoutOutcome(reason));
   }
   throttle_.request();
 }
@@ -166,7 +170,7 @@ void DecisionPanel::refresh() {
                                                    .arg(d.occlusionResolution->widthPx)
                                                    .arg(d.occlusionResolution->heightPx)
                                              : tr("Dynamic"));
-    reason_->setText(why.isEmpty() ? reason : reason + QStringLiteral(". ") + why);
+    reason_->setText(why.isEmpty() ? reason : withoutOutcome(reason) + QStringLiteral(". ") + why);
     lead_->setVisible(!why.isEmpty());
   }
   if (frame_.levers)

@@ -341,7 +341,7 @@ void Menus::makeViewMenu() {
   colours->addActions({wireframe, bounds, byReason, byLevel, voids, squares});
   bar->addWidget(colours);
   bar->addActions({freeze, detach});
-  panels_.terrain->setActions(terrainActions_, {byLevel, wireframe, bounds, voids, squares});
+  panels_.terrain->setActions(terrainActions_, {byLevel, wireframe, voids});
   panels_.culling->setActions({byReason, bounds, freeze, detach});
 }
 
