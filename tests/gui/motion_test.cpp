@@ -6,6 +6,7 @@
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QTableWidget>
 #include <cmath>
 #include <cstdlib>
@@ -161,6 +162,8 @@ TEST_F(Motion, plotsOnTheClockOfTheFramesShareThePointerAndExplainAFrame) {
                                       &w().findChild<views::MotionPanel*>()->plot()};
   for (views::ClockPlot* plot : others) {
     workbench::raiseDock(*plot);
+    for (QWidget* each = plot->parentWidget(); each != nullptr; each = each->parentWidget())
+      if (auto* area = qobject_cast<QScrollArea*>(each)) area->ensureWidgetVisible(plot);
     w().controllers().flight->flightDock().play();
     const std::uint64_t before = plots->buffer().end();
     ASSERT_TRUE(waitFor([&] { return plots->buffer().end() > before + 20; }));
