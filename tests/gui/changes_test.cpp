@@ -37,8 +37,7 @@ TEST_F(WorkbenchChanges, aKeySwitchesSnapshotsAndTheirImagesAreMeasured) {
 
 TEST_F(WorkbenchChanges, theErrorOfASnapshotIsMeasuredWhileItsResultsAreSeen) {
   EXPECT_FALSE(w().controllers().errors->dock().live().isOn());
-  w().dock("history")->show();
-  w().dock("history")->raise();
+  workbench::raiseDock(*w().panels().changes);
   QCoreApplication::processEvents();
   QTest::keyClick(&w(), Qt::Key_F9);
   EXPECT_TRUE(w().controllers().errors->dock().live().isOn());

@@ -157,7 +157,7 @@ TEST_F(SplitViewTest, followsTheFrameAndRestsWhenHiddenOrNothingMoves) {
 
   QObject here;
   bool seen = true;
-  QObject::connect(w().dock("compare"), &QDockWidget::visibilityChanged, &here, [&](bool is) { seen = is; });
+  QObject::connect(w().dock("errors"), &QDockWidget::visibilityChanged, &here, [&](bool is) { seen = is; });
   view().setOverViewport(false);
   w().dock("plots")->raise();
   // One comparison may have been under way.
@@ -209,7 +209,7 @@ TEST_F(ErrorDock, theSplitViewSaysWhatIsMissingWhereNothingCanBeDrawn) {
 }
 
 TEST_F(SplitViewTest, staysInTheWindowAndSaysWhatItWaitsFor) {
-  EXPECT_TRUE(w().dock("compare")->isAncestorOf(&view())) << "another window would be buried by a click";
+  EXPECT_TRUE(w().dock("errors")->isAncestorOf(&view())) << "another window would be buried by a click";
   EXPECT_FALSE(view().isWindow());
   EXPECT_FALSE(view().status().text().contains("Open a terrain")) << view().status().text().toStdString();
 }
@@ -296,21 +296,21 @@ TEST_F(SplitViewTest, whenItEndsTheDocksAreAsTheyWereBefore) {
   w().workspaces().reset();
   w().dock("decision")->raise();
   ASSERT_TRUE(comesToFront("decision"));
-  ASSERT_TRUE(w().dock("compare")->isHidden());
+  ASSERT_TRUE(w().dock("errors")->isHidden());
   trigger("In the viewport");
-  ASSERT_TRUE(comesToFront("compare"));
+  ASSERT_TRUE(comesToFront(view()));
   EXPECT_TRUE(view().overViewport());
   trigger("In the viewport");
   EXPECT_TRUE(comesToFront("decision"));
-  EXPECT_TRUE(w().dock("compare")->isHidden());
+  EXPECT_TRUE(w().dock("errors")->isHidden());
   w().workspaces().show(2);
   w().workspaces().reset();
   ASSERT_TRUE(comesToFront("errors"));
   trigger("In the viewport");
-  ASSERT_TRUE(comesToFront("compare"));
+  ASSERT_TRUE(comesToFront(view()));
   trigger("In the viewport");
-  EXPECT_TRUE(comesToFront("errors"));
-  EXPECT_FALSE(w().dock("compare")->isHidden()) << "it is one of this workspace's docks";
+  EXPECT_TRUE(comesToFront(errors.dock())) << "the page that was there before";
+  EXPECT_FALSE(w().dock("errors")->isHidden()) << "it is one of this workspace's docks";
 }
 
 TEST_F(SplitViewTest, fitsIntoTheFootOfTheSmallestWindow) {
@@ -319,7 +319,7 @@ TEST_F(SplitViewTest, fitsIntoTheFootOfTheSmallestWindow) {
   w().workspaces().show(1);
   w().workspaces().reset();
   trigger("In the viewport");
-  ASSERT_TRUE(comesToFront("compare"));
+  ASSERT_TRUE(comesToFront(view()));
   ASSERT_TRUE(waitFor([&] { return view().upToDate(); }, 120000));
   QTest::qWait(200);
   for (const auto* bar : view().findChildren<QScrollBar*>()) {

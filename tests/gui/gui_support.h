@@ -125,9 +125,10 @@ class Bench : public ::testing::Test {
     ASSERT_TRUE(QTest::qWaitForWindowActive(window.get(), 60000));
     ASSERT_TRUE(waitFor([this] { return QApplication::activeWindow() == window.get(); }));
   }
-  /// Waits until a person can see the dock.
-  bool comesToFront(const char* dock) {
-    return waitFor([this, dock] { return workbench::isInFront(*window->dock(QString::fromLatin1(dock))); });
+  /// Waits until a person can see the dock, or a page of one.
+  bool comesToFront(const char* dock) { return comesToFront(*window->dock(QString::fromLatin1(dock))); }
+  bool comesToFront(const QWidget& content) {
+    return waitFor([&content] { return workbench::isInFront(content); });
   }
   /// Returns the commands of all menus.
   QList<QAction*> commands() const {

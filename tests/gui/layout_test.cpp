@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QAccessible>
+#include <QCommandLinkButton>
 #include <QDockWidget>
 #include <QLabel>
 #include <QPushButton>
+#include <QSignalSpy>
+#include <QSlider>
 #include <QTabBar>
 #include <QWindow>
 #include <algorithm>
 
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/error_dock.h"
+#include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/window/notice_bar.h"
+#include "app/workbench/window/palette_entries.h"
+#include "app/workbench/window/welcome.h"
+#include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
+#include "views/controls/parameter_line.h"
+#include "views/controls/parameter_table.h"
 #include "views/insets/depth_map_inset.h"
+#include "views/panels/culling_panel.h"
 
 namespace trimtab::test {
 namespace {
@@ -51,7 +61,7 @@ TEST_F(WorkbenchLayout, aQuestionLiesOverTheImageOnTheDisplay) {
 
 TEST_F(WorkbenchLayout, altAndANumberRaiseADockBehindAnother) {
   ASSERT_NO_FATAL_FAILURE(activate());
-  QDockWidget &policy = *w().dock("policy"), &front = *w().dock("depth_map");
+  QDockWidget &policy = *w().dock("policy"), &front = *w().dock("culling");
   QTest::keyClick(&w(), Qt::Key_1, Qt::AltModifier);
   ASSERT_TRUE(policy.isAncestorOf(QApplication::focusWidget()));
   front.raise();
@@ -88,32 +98,84 @@ TEST_F(WorkbenchLayout, aQuestionMovesNoControl) {
   EXPECT_FALSE(w().notices().isVisible());
 }
 
-TEST_F(WorkbenchLayout, anEmptyDepthMapSaysWhoServesInsteadAndLeadsThere) {
-  QDockWidget& bands = *w().dock("depth_map");
-  bands.show();
-  bands.raise();
-  auto* const inset = bands.findChild<views::DepthMapInset*>();
-  const auto why = [&] { return inset->accessibleDescription(); };
+TEST_F(WorkbenchLayout, anEmptyDepthMapSaysWhoServesInstead) {
+  workbench::raiseDock(*w().panels().culling);
+  const auto* const inset = w().panels().culling->findChild<views::DepthMapInset*>();
+  const auto says = [&](const char* what) {
+    return waitFor([&] { return inset->accessibleDescription().contains(what); });
+  };
   ASSERT_TRUE(w().draft().setText("culling.case", "view_frustum").empty());
-  ASSERT_TRUE(waitFor([&] { return why().contains("Culling case"); })) << why().toStdString();
-  QPushButton* const lead = button(*inset, "Culling");
-  ASSERT_NE(lead, nullptr);
-  lead->click();
-  EXPECT_TRUE(comesToFront("culling"));
-}
-
-TEST_F(WorkbenchLayout, aDepthMapThatTheHorizonReplacesIsSaidSo) {
-  QDockWidget& bands = *w().dock("depth_map");
-  bands.show();
-  bands.raise();
-  auto* const inset = bands.findChild<views::DepthMapInset*>();
+  EXPECT_TRUE(says("Culling case")) << inset->accessibleDescription().toStdString();
+  ASSERT_TRUE(w().draft().setText("culling.case", "proposed").empty());
   ASSERT_TRUE(w().draft().setText("culling.occlusion", "horizon").empty());
   ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   w().feed().seekHere(climbsThrough(*readFlight(sampleFlight()), 2000));
-  ASSERT_TRUE(waitFor([&] { return inset->accessibleDescription().contains("the horizon serves"); }))
-      << inset->accessibleDescription().toStdString();
-  EXPECT_TRUE(inset->accessibleDescription().contains("What it covers of the view"))
-      << "and its picture is there in place of the map's";
+  EXPECT_TRUE(says("the horizon serves")) << inset->accessibleDescription().toStdString();
+  EXPECT_TRUE(says("What it covers of the view")) << "and its picture is there in place of the map's";
+}
+
+TEST_F(WorkbenchLayout, aNumberBoxLeavesCtrlEToTheProgram) {
+  ASSERT_NO_FATAL_FAILURE(activate());
+  workbench::openParameter(*w().panels().parameters, "lod.scale");
+  QWidget* const box = w().panels().parameters->line("lod.scale")->editor();
+  ASSERT_TRUE(waitFor([&] { return box->isVisible(); }, 5000));
+  box->setFocus();
+  DialogCloser dialogs;
+  QSignalSpy exported(command("Export again"), &QAction::triggered);
+  QTest::keyClick(box, Qt::Key_E, Qt::ControlModifier);
+  EXPECT_EQ(exported.size(), 1);
+}
+
+TEST_F(WorkbenchLayout, theMenuOfDocksTicksThoseThatAreShown) {
+  auto* const menu = w().findChild<QMenu*>("docks");
+  for (int i = 0; i < 5; ++i) {
+    w().workspaces().show(i);
+    w().workspaces().reset();
+    emit menu->aboutToShow();
+    for (const QAction* action : menu->actions())
+      for (const QDockWidget* dock : w().findChildren<QDockWidget*>()) {
+        if (action->text() != dock->windowTitle()) continue;
+        EXPECT_EQ(action->isChecked(), !dock->isHidden()) << dock->windowTitle().toStdString() << " in " << i;
+      }
+  }
+}
+
+TEST_F(WorkbenchLayout, aClickOnTheTimelineOfAFlightSeeks) {
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  workbench::raiseDock(*w().panels().flight);
+  ASSERT_TRUE(comesToFront(*w().panels().flight));
+  auto* const line = w().panels().flight->findChild<QSlider*>();
+  QTest::mouseClick(line, Qt::LeftButton, Qt::NoModifier, QPoint(line->width() * 3 / 4, line->height() / 2));
+  const double whole = w().feed().playback().duration();
+  EXPECT_NEAR(w().feed().playback().position(), 0.75 * whole, 0.03 * whole);
+}
+
+TEST_F(WorkbenchLayout, theNumbersOfAPickedNodeGoWhenTheViewIsNoLongerFrozen) {
+  const auto says = [&](const QString& text) {
+    const auto labels = w().panels().culling->findChildren<QLabel*>();
+    return std::any_of(labels.begin(), labels.end(),
+                       [&](const QLabel* label) { return label->text().contains(text); });
+  };
+  w().controllers().observer->setFrozen(true);
+  views::PickedNode node;
+  node.form = "tile";
+  w().panels().culling->showPicked(node);
+  EXPECT_TRUE(says("tile"));
+  w().controllers().observer->setFrozen(false);
+  EXPECT_TRUE(says("Nothing is picked"));
+}
+
+TEST_F(WorkbenchLayout, theWelcomePageOffersTheLastTerrainsAndFlights) {
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  trigger("Welcome page");
+  auto* page = w().findChild<workbench::Welcome*>();
+  ASSERT_NE(page, nullptr);
+  const auto ways = page->findChildren<QCommandLinkButton*>();
+  for (const char* name : {"terrain: ", "flight: "})
+    EXPECT_TRUE(std::any_of(ways.begin(), ways.end(), [&](const QCommandLinkButton* way) {
+      return way->toolTip().startsWith(QLatin1String(name));
+    })) << name;
+  page->close();
 }
 
 TEST_F(WorkbenchLayout, aScreenReaderHasANameForWhateverTheKeyboardReaches) {

@@ -6,6 +6,7 @@
 #include <QMessageBox>
 #include <QMouseEvent>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QTableWidget>
 #include <cmath>
 #include <cstdlib>
@@ -50,7 +51,7 @@ class Motion : public Bench {
 };
 
 TEST_F(Motion, aSweepUnderTheFreeCameraFillsStacksLowersAndRaises) {
-  w().dock(QStringLiteral("motion"))->raise();
+  workbench::raiseDock(panel());
   panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
   panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
   emit panel().sourceBox().activated(MotionPanel::sweep);
@@ -98,7 +99,7 @@ TEST_F(Motion, anEditLeavesTheRateOfTheHeadInEveryFrame) {
 
 TEST_F(Motion, aSweepIsRecordedAndFlownAgainWithItsLineOfSight) {
   auto& budget = *w().findChild<views::BudgetPanel*>();
-  w().dock(QStringLiteral("motion"))->raise();
+  workbench::raiseDock(panel());
   panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
   panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
   emit panel().sourceBox().activated(MotionPanel::sweep);
@@ -161,6 +162,8 @@ TEST_F(Motion, plotsOnTheClockOfTheFramesShareThePointerAndExplainAFrame) {
                                       &w().findChild<views::MotionPanel*>()->plot()};
   for (views::ClockPlot* plot : others) {
     workbench::raiseDock(*plot);
+    for (QWidget* each = plot->parentWidget(); each != nullptr; each = each->parentWidget())
+      if (auto* area = qobject_cast<QScrollArea*>(each)) area->ensureWidgetVisible(plot);
     w().controllers().flight->flightDock().play();
     const std::uint64_t before = plots->buffer().end();
     ASSERT_TRUE(waitFor([&] { return plots->buffer().end() > before + 20; }));

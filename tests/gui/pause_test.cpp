@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <QComboBox>
 
 #include "app/workbench/dialogs/bench_dialog.h"
 #include "app/workbench/dialogs/weather_wizard.h"
 #include "app/workbench/docks/error_dock.h"
-#include "app/workbench/docks/experiments_dock.h"
 #include "app/workbench/docks/flight_dock.h"
+#include "app/workbench/docks/leverage_page.h"
 #include "app/workbench/jobs/child_run.h"
 #include "app/workbench/jobs/view_pause.h"
 #include "app/workbench/viewport/split_view.h"
@@ -87,14 +86,13 @@ class Pause : public Bench {
   }
 };
 
-TEST_F(Pause, theViewStandsStillWhileAnExperimentRunsAndGoesOnWhenItIsCancelled) {
-  workbench::ExperimentsDock& dock = *w().panels().experiments;
-  auto* which = dock.findChildren<QComboBox*>().front();
-  which->setCurrentIndex(which->findData(QLatin1String("head-motion")));
-  dock.run();
-  expectPaused([&] { return dock.running(); }, "an experiment runs");
-  dock.cancel();
-  ASSERT_TRUE(waitFor([&] { return !dock.running(); }));
+TEST_F(Pause, theViewStandsStillWhileLeverageIsMeasuredAndGoesOnWhenItIsCancelled) {
+  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  workbench::LeveragePage& page = *w().panels().leverage;
+  page.run();
+  expectPaused([&] { return page.running(); }, "leverage is measured");
+  page.cancel();
+  ASSERT_TRUE(waitFor([&] { return !page.running(); }));
   expectGoesOn();
 }
 
@@ -144,8 +142,7 @@ TEST_F(Pause, theViewStandsStillWhileTheWeatherIsCalibrated) {
 
 TEST_F(Pause, theViewWaitsWhileCompareDrawsAndGoesOnInBetween) {
   workbench::SplitView& split = w().controllers().errors->splitView();
-  w().dock("compare")->show();
-  w().dock("compare")->raise();
+  workbench::raiseDock(split);
   // The first numbers change the size of the dock, and with it that of the image.
   ASSERT_TRUE(waitFor([&] { return split.comparisons() >= 2; }));
   std::uint64_t before = paints(), drawnMeanwhile = 0, comparisons = 0;
@@ -158,7 +155,7 @@ TEST_F(Pause, theViewWaitsWhileCompareDrawsAndGoesOnInBetween) {
   });
   ASSERT_TRUE(waitFor([&] { return comparisons >= 4; }));
   EXPECT_EQ(drawnMeanwhile, 0u);
-  w().dock("compare")->hide();
+  w().dock("errors")->hide();
   ASSERT_TRUE(waitFor([&] { return !split.busy(); }));
   expectGoesOn();
 }

@@ -20,7 +20,7 @@ class Rules : public Bench {
 TEST_F(Rules, thePresetDockLeadsToTheEditorOfAList) {
   auto* const parameters = w().findChild<views::ParameterTable*>();
   dock("preset").raise();
-  for (const auto& [key, name] : {std::pair{"fuzzy.bands_px", "depth_map"},
+  for (const auto& [key, name] : {std::pair{"fuzzy.bands_px", "culling"},
                                   {"fuzzy.pitch.curve_deg", "policy"},
                                   {"policy.terms", "policy"}}) {
     parameters->line(key)->editor()->parentWidget()->findChild<QToolButton*>()->click();

@@ -14,9 +14,7 @@ namespace {
 
 class StaticLodDock : public Bench {
  protected:
-  views::StaticLodPanel& panel() {
-    return *w().dock(QStringLiteral("static_lod"))->findChild<views::StaticLodPanel*>();
-  }
+  views::StaticLodPanel& panel() { return *w().panels().staticLod; }
   bool says(const QString& text) {
     for (const QLabel* label : panel().findChildren<QLabel*>())
       if (label->text().contains(text)) return true;
@@ -27,7 +25,7 @@ class StaticLodDock : public Bench {
 
 TEST_F(StaticLodDock, tellsOfTreesAndDrawsThemByDistanceByLevelAndAsDocumentEsPicture) {
   TRIMTAB_NEEDS_SHARED("data/fg-cologne/3056410.btg");
-  w().dock(QStringLiteral("static_lod"))->raise();
+  workbench::raiseDock(panel());
   EXPECT_TRUE(says(QStringLiteral(".btg.gz"))) << "the sample terrain has no trees";
   w().controllers().terrain->open(
       QString::fromStdString((sharedDir() / "data/fg-cologne/3056410.btg").string()));

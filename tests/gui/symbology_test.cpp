@@ -19,9 +19,8 @@ class SymbologyDock : public Bench {
   void SetUp() override {
     Bench::SetUp();
     if (HasFatalFailure()) return;
-    w().dock(QStringLiteral("symbology"))->raise();
-    panel = w().findChild<views::SymbologyPanel*>();
-    ASSERT_NE(panel, nullptr);
+    panel = w().panels().symbology;
+    workbench::raiseDock(*panel);
     w().draft().setValue("symbology.enabled", true);
     panel->placeButton().click();
     ASSERT_TRUE(waitFor([&] { return box(Symbol::altitude).isValid(); }));

@@ -45,7 +45,7 @@ class Tour : public Bench {
     using Task = std::tuple<const char*, int, void (Tour::*)()>;
     const Task tasks[] = {{"first-minute", 2, &Tour::firstMinute},
                           {"curve-and-parameter", 6, &Tour::curveAndParameter},
-                          {"band-of-the-depth-map", 5, &Tour::bandOfTheDepthMap},
+                          {"band-of-the-depth-map", 6, &Tour::bandOfTheDepthMap},
                           {"freeze-and-detach", 6, &Tour::freezeAndDetach},
                           {"head-sweep", 6, &Tour::headSweep},
                           {"heavy-rain", 5, &Tour::heavyRain},
@@ -160,8 +160,9 @@ class Tour : public Bench {
     EXPECT_EQ(w().draft().parameters().lod.screenSpaceError.value(), 4);
   }
   void bandOfTheDepthMap() {
-    front("depth_map");
-    const QDockWidget& dock = *w().dock("depth_map");
+    front("culling");
+    QDockWidget& dock = *w().dock("culling");
+    hand_->press(dock, "Depth map");
     auto& scale = *dock.findChild<views::BandScale*>();
     hand_->drag(scale, scale.pixelOf(1.0).toPoint(), scale.pixelOf(1.2).toPoint(), "an edge");
     auto& table = *dock.findChild<QTableView*>();
@@ -196,8 +197,8 @@ class Tour : public Bench {
   }
   void headSweep() {
     workspace("Fly");
-    front("motion");
-    QDockWidget& dock = *w().dock("motion");
+    QDockWidget& dock = *w().dock("flight");
+    hand_->press(dock, "Head motion");
     hand_->choose(dock, "Line of sight", "a sweep");
     EXPECT_TRUE(waitFor([this] { return session().decision().motion.lodScale > 1; }));
     shoot();
@@ -235,7 +236,7 @@ class Tour : public Bench {
     workbench::SplitView& split = w().controllers().errors->splitView();
     using Form = workbench::SplitPicture::Form;
     keysOf("In the viewport");
-    EXPECT_TRUE(split.overViewport() && comesToFront("compare"));
+    EXPECT_TRUE(split.overViewport() && comesToFront(split));
     hand_->choose(split, "Preset on the right", "as-published");
     ASSERT_TRUE(waitFor([&] { return split.comparisons() > 0 && split.upToDate(); }))
         << w().messages().text().toStdString();

@@ -274,7 +274,7 @@ TEST_F(WorkbenchWindow, floatingADockKeepsThePictureAndAResetOfTheWorkspaceBring
   ASSERT_TRUE(settle());
   const std::size_t tiles = last().visible.tiles.size();
   for (const char* name :
-       {"policy", "depth_map", "decision", "host", "flight", "plots", "preset", "messages", "history"}) {
+       {"policy", "culling", "decision", "host", "flight", "plots", "preset", "messages"}) {
     QDockWidget* dock = w().dock(name);
     ASSERT_NE(dock, nullptr) << name;
     ASSERT_NE(command(dock->windowTitle()), nullptr) << name << " is in the View menu";

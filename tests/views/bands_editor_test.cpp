@@ -8,7 +8,6 @@
 #include "application.h"
 #include "views/controls/number_box.h"
 #include "views/editors/band_scale.h"
-#include "views/insets/depth_map_inset.h"
 #include "views/model/bands_model.h"
 
 namespace trimtab::views {
@@ -110,28 +109,6 @@ TEST_F(BandsEditorTest, typedSizesAndEdgesAreTakenOrRefused) {
     EXPECT_FALSE(type(1, BandsModel::kFrom, text)) << text;
   EXPECT_FALSE(type(1, BandsModel::kTo, "0.9"));
   EXPECT_EQ(bandsOf(draft_).band[1], band);
-}
-
-TEST_F(BandsEditorTest, theInsetSaysWhyThereIsNoDepthMap) {
-  DepthMapInset* inset = editor_.findChild<DepthMapInset*>();
-  ASSERT_NE(inset, nullptr);
-  LiveFrame frame;
-  editor_.showFrame(frame);
-  EXPECT_TRUE(
-      test::eventually([&] { return inset->accessibleDescription() == "No depth map: scheme is frustum"; }));
-  QImage map(32, 24, QImage::Format_Grayscale8);
-  map.fill(90);
-  frame.decision.scheme = Scheme::dynamic;
-  FrameResult result;
-  result.depthMap = OcclusionResolution{32, 24};
-  frame.result = std::make_shared<const FrameResult>(result);
-  editor_.showFrame(frame);
-  editor_.showDepthMap(map, "32 × 24 px, near 1 m, far 5 km");
-  EXPECT_TRUE(
-      test::eventually([&] { return inset->accessibleDescription() == "32 × 24 px, near 1 m, far 5 km"; }));
-  editor_.showFrame(LiveFrame{});
-  EXPECT_TRUE(
-      test::eventually([&] { return inset->accessibleDescription() == "No depth map: scheme is frustum"; }));
 }
 
 TEST_F(BandsEditorTest, theFilesEdgesStayBehindThoseThatAreDragged) {

@@ -38,6 +38,20 @@ TEST_F(ChangesPanelTest, aLineSaysWhatWasChangedFromWhatToWhatAndWhen) {
   EXPECT_EQ(panel_.summary(), "2 parameters differ from the file.");
 }
 
+TEST_F(ChangesPanelTest, oneChangeIsRevertedAndLaterOnesStay) {
+  draft_.setValue("lod.scale", 4.0);
+  draft_.setValue("view.near_m", 2.0);
+  QTableView& table = panel_.table();
+  table.setCurrentIndex(table.model()->index(1, 0));
+  table.setFocus();
+  QTest::keyClick(&table, Qt::Key_Delete);
+  EXPECT_EQ(test::numberOf(draft_, "lod.scale"), 1);
+  EXPECT_EQ(test::numberOf(draft_, "view.near_m"), 2);
+  ASSERT_EQ(rows(), 4) << "it is a step that can be undone";
+  draft_.undoStack().undo();
+  EXPECT_EQ(test::numberOf(draft_, "lod.scale"), 4);
+}
+
 TEST_F(ChangesPanelTest, aClickGoesBackAndForward) {
   draft_.setValue("lod.scale", 4.0);
   draft_.setValue("lod.scale", 5.0);

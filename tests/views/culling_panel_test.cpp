@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "views/insets/depth_map_inset.h"
 #include "views/insets/horizon_inset.h"
 #include "views/plots/time_plot.h"
 
@@ -64,6 +65,28 @@ TEST_F(CullingPanelTest, saysWhatServesAndWhyNotWhatWasAskedFor) {
   frame.decision.occlusionResolution.reset();
   EXPECT_TRUE(says(frame, QStringLiteral("plain view-frustum culling")));
   EXPECT_EQ(ofHorizon(), QStringLiteral("No horizon: nothing asks for one in this frame."));
+}
+
+TEST_F(CullingPanelTest, theDepthMapIsShownOrWhyThereIsNone) {
+  const auto* const inset = panel_.findChild<DepthMapInset*>();
+  const auto says = [&](const QString& text) {
+    return QTest::qWaitFor([&] { return inset->accessibleDescription() == text; });
+  };
+  const QString none = "No depth map: scheme is frustum", caption = "32 × 24 px, near 1 m, far 5 km";
+  panel_.showFrame({});
+  EXPECT_TRUE(says(none));
+  QImage map(32, 24, QImage::Format_Grayscale8);
+  map.fill(90);
+  LiveFrame frame;
+  frame.decision.scheme = Scheme::dynamic;
+  FrameResult result;
+  result.depthMap = OcclusionResolution{32, 24};
+  frame.result = std::make_shared<const FrameResult>(result);
+  panel_.showFrame(frame);
+  panel_.showMap(map, caption);
+  EXPECT_TRUE(says(caption));
+  panel_.showFrame({});
+  EXPECT_TRUE(says(none));
 }
 
 TEST_F(CullingPanelTest, showsStagesWithTheirBudgetAndLetsTheDockScroll) {

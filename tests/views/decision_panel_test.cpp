@@ -4,6 +4,7 @@
 #include "views/controls/lever_chain_table.h"
 
 #include <QClipboard>
+#include <QLabel>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTableView>
@@ -78,6 +79,8 @@ TEST_F(DecisionPanelTest, leadsToTheChoicesThatLeaveTheImageWithoutADepthMap) {
   frame.result = std::make_shared<const FrameResult>(drawn);
   panel_.showFrame(frame);
   ASSERT_TRUE(test::eventually([&] { return lead->isVisible(); }));
+  for (const QLabel* label : panel_.findChildren<QLabel*>())
+    EXPECT_FALSE(label->text().contains("depth map 4")) << "a size beside \"no depth map\" contradicts it";
   QSignalSpy asked(&panel_, &DecisionPanel::cullingAsked);
   QTest::mouseClick(lead, Qt::LeftButton);
   EXPECT_EQ(asked.size(), 1);

@@ -192,12 +192,6 @@ int main(int argc, char** argv) {
   for (int i = 0; i < 60; ++i) bands.showFrame(flight.next(draft.active()));
   bands.scale().select(1);
   shoot(bands, {480, 560}, dir.filePath(QStringLiteral("bands.png")));
-  QImage map(400, 300, QImage::Format_Grayscale8);
-  for (int y = 0; y < 300; ++y)
-    for (int x = 0; x < 400; ++x)
-      map.scanLine(y)[x] =
-          static_cast<uchar>(y < 120 + 30 * std::sin(x * 0.03) ? 255 : 255 * (300 - y) / 300);
-  bands.showDepthMap(map, QStringLiteral("400 × 300 px, near 1 m, far 38,200 m"));
   draft.setValue("fuzzy.hysteresis", 0.3);
   shoot(bands, {480, 560}, dir.filePath(QStringLiteral("bands_broken.png")));
   draft.resetAll();

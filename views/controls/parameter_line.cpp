@@ -232,6 +232,17 @@ void ParameterLine::readValues() {
   showValues();
 }
 
+/// Two lists of five points may differ: what differs is shown, not how many there are.
+void ParameterLine::showLists(const std::array<bool, kValues>& differs) {
+  const int widest = label_->fontMetrics().horizontalAdvance(QLatin1Char('0')) * kWidestValue;
+  for (std::size_t i = 0; i < kValues; ++i) {
+    const ParameterValue value = row_.get(*draft_.reference(kColumns[i]));
+    const QString text =
+        differs[i] ? changeText({&row_, value, draft_.value(row_.key)}).before : shortText(row_, value);
+    values_[i]->setText(label_->fontMetrics().elidedText(text, Qt::ElideRight, widest));
+  }
+}
+
 void ParameterLine::refresh() {
   State now;
   now.changed = draft_.isChanged(row_.key, reference_);
@@ -246,6 +257,7 @@ void ParameterLine::refresh() {
     now.problem = said.join(QLatin1Char(' '));
     if (findings.front().severity != Severity::error) now.colour = warningColour(label_->palette());
   }
+  if (row_.kind != Kind::scalar && row_.kind != Kind::flag && row_.kind != Kind::choice) showLists(now.differs);
   // Every edit asks every line: nothing is laid out again that stayed as it was.
   if (now == shown_) return;
   shown_ = now;

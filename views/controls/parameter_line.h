@@ -48,16 +48,18 @@ class ParameterLine : public QObject {
   void editorAsked(const QString& key);  ///< the person wants the editor of a curve, bands or rules
 
  private:
+  static constexpr std::size_t kValues = 3;  ///< file, base and defaults
+
   QWidget* makeEditor();
   void makeValues();
   void readValues();
   void showValues();
+  void showLists(const std::array<bool, kValues>& differs);
   void showResets(const QPoint& at);
   void refuse(const QString& why);
 
   Draft& draft_;
   const ParameterRow& row_;
-  static constexpr std::size_t kValues = 3;  ///< file, base and defaults
   QLabel* label_;
   NoteBubble* problem_;
   std::array<QToolButton*, kValues> values_{};

@@ -3,7 +3,6 @@
 
 #include <QBoxLayout>
 #include <QLabel>
-#include <QSplitter>
 #include <QTableView>
 #include <QToolButton>
 
@@ -12,9 +11,7 @@
 #include "views/controls/list_table.h"
 #include "views/controls/note_line.h"
 #include "views/controls/number_box.h"
-#include "views/insets/depth_map_inset.h"
 #include "views/model/bands_model.h"
-#include "views/model/depth_map_reason.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
 
@@ -26,7 +23,6 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
       scale_(new BandScale(draft)),
       model_(new BandsModel(draft, this)),
       table_(new QTableView),
-      inset_(new DepthMapInset),
       note_(new NoteLine) {
   QHBoxLayout* top = new QHBoxLayout;
   NumberBox* hysteresis = new NumberBox(draft, key::kHysteresis);
@@ -52,35 +48,15 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
   connect(add, &QToolButton::clicked, scale_, &BandScale::insertBesideSelected);
   connect(remove_, &QToolButton::clicked, scale_, &BandScale::removeSelected);
 
-  QWidget* upper = new QWidget;
-  QVBoxLayout* upperLayout = new QVBoxLayout(upper);
-  upperLayout->setContentsMargins(0, 0, 0, 0);
-  upperLayout->addLayout(top);
-  upperLayout->addWidget(scale_);
-  upperLayout->addWidget(table_, 1);
-  upperLayout->addWidget(buttons);
-  upperLayout->addWidget(note_);
-
-  QSplitter* split = new QSplitter(Qt::Vertical);
-  split->addWidget(upper);
-  split->addWidget(inset_);
-  split->setChildrenCollapsible(false);
-  split->setSizes({10, 10000});
   QVBoxLayout* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
-  layout->addWidget(split);
+  layout->addLayout(top);
+  layout->addWidget(scale_);
+  layout->addWidget(table_, 1);
+  layout->addWidget(buttons);
+  layout->addWidget(note_);
 
-  throttle_ = new Throttle(this, [this] {
-    model_->setLiveBand(decision_.band);
-    // The scheme frustum follows from the bands of this dock; any other reason is changed in the dock
-    // Culling.
-    const bool ownChoice =
-        decision_.scheme == Scheme::frustum && draft_.active()->culling.method == CullingCase::proposed;
-    inset_->setLead(why_.isEmpty() || ownChoice ? QString() : tr("Go to Culling"));
-    if (!mapDrawn_) inset_->setReason(why_);
-  });
-  inset_->setReason(tr("No depth map yet: nothing has been drawn"));
-  connect(inset_, &DepthMapInset::leadFollowed, this, &BandsEditor::cullingAsked);
+  throttle_ = new Throttle(this, [this] { model_->setLiveBand(decision_.band); });
 
   connect(scale_, &BandScale::selectedChanged, this, [this](int index) {
     // Without a current row, a click on the row that was selected last selects it again.
@@ -109,19 +85,7 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
 
 void BandsEditor::showFrame(const LiveFrame& frame) {
   decision_ = frame.decision;
-  why_ = whyNoDepthMap(frame, *draft_.active());
-  mapDrawn_ = frame.drawn().depthMap || frame.drawn().horizon;
   scale_->showFrame(frame);
-  throttle_->request();
-}
-
-void BandsEditor::showDepthMap(const QImage& image, const QString& caption) {
-  mapDrawn_ = true;
-  inset_->setPicture(image, caption);
-}
-
-void BandsEditor::clearDepthMap() {
-  mapDrawn_ = false;
   throttle_->request();
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QImage>
 #include <QWidget>
 
 #include "views/model/draft.h"
@@ -14,11 +13,10 @@ namespace trimtab::views {
 
 class BandScale;
 class BandsModel;
-class DepthMapInset;
 class NoteLine;
 class Throttle;
 
-/// The Depth map dock: bands with edges to drag, their sizes, the hysteresis, and the live depth map.
+/// The bands of the depth map with edges to drag, their sizes, and the hysteresis.
 class BandsEditor : public QWidget {
   Q_OBJECT
  public:
@@ -26,14 +24,6 @@ class BandsEditor : public QWidget {
   BandScale& scale() { return *scale_; }
   QTableView& table() { return *table_; }
   void showFrame(const LiveFrame& frame);
-
- public slots:
-  /// Shows the live depth map; `caption` says its size and what black and white mean.
-  void showDepthMap(const QImage& image, const QString& caption);
-  void clearDepthMap();
-
- signals:
-  void cullingAsked();  ///< the person wants the choices that leave this dock without a depth map
 
  private:
   void showNote();
@@ -43,14 +33,11 @@ class BandsEditor : public QWidget {
   BandScale* scale_;
   BandsModel* model_;
   QTableView* table_;
-  DepthMapInset* inset_;
   NoteLine* note_;
   QToolButton* remove_;
   Throttle* throttle_;
   QString refusal_;
-  QString why_;  ///< there is no depth map; empty if there is one
   FrameDecision decision_;
-  bool mapDrawn_ = false;
 };
 
 }  // namespace trimtab::views

@@ -2,20 +2,12 @@
 #include "depth_map_inset.h"
 
 #include <QPainter>
-#include <QPushButton>
 
 #include "views/model/theme.h"
 
 namespace trimtab::views {
-namespace {
 
-constexpr int kLeadMarginPx = 6;
-
-}  // namespace
-
-DepthMapInset::DepthMapInset(QWidget* parent) : QWidget(parent), lead_(new QPushButton(this)) {
-  lead_->hide();
-  connect(lead_, &QPushButton::clicked, this, &DepthMapInset::leadFollowed);
+DepthMapInset::DepthMapInset(QWidget* parent) : QWidget(parent) {
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   setAccessibleName(tr("Depth map of the last frame"));
 }
@@ -33,23 +25,6 @@ void DepthMapInset::setReason(const QString& why) {
   text_ = why;
   setAccessibleDescription(why);
   update();
-}
-
-void DepthMapInset::setLead(const QString& text) {
-  if (lead_->text() == text) return;
-  lead_->setText(text);
-  lead_->adjustSize();
-  placeLead();
-  lead_->setVisible(!text.isEmpty());
-}
-
-void DepthMapInset::resizeEvent(QResizeEvent* event) {
-  QWidget::resizeEvent(event);
-  placeLead();
-}
-
-void DepthMapInset::placeLead() {
-  lead_->move(width() - lead_->width() - kLeadMarginPx, kLeadMarginPx);
 }
 
 void DepthMapInset::paintEvent(QPaintEvent*) {

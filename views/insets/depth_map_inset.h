@@ -4,8 +4,6 @@
 #include <QImage>
 #include <QWidget>
 
-class QPushButton;
-
 namespace trimtab::views {
 
 /// The depth map of the last frame as a picture with a caption, or the reason why there is none.
@@ -16,25 +14,16 @@ class DepthMapInset : public QWidget {
 
   void setPicture(const QImage& image, const QString& caption);
   void setReason(const QString& why);
-  /// Shows a button that leads to where the reason can be changed; an empty text removes it.
-  void setLead(const QString& text);
 
   QSize sizeHint() const override { return {320, 200}; }
   QSize minimumSizeHint() const override { return {160, 90}; }
 
- signals:
-  void leadFollowed();
-
  protected:
-  void resizeEvent(QResizeEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  void placeLead();
-
   QImage image_;
   QString text_;
-  QPushButton* lead_;
 };
 
 }  // namespace trimtab::views

@@ -57,7 +57,11 @@ void ChangesPanel::setUpTable() {
   copyRows->setShortcut(QKeySequence::Copy);
   copyRows->setShortcutContext(Qt::WidgetShortcut);
   connect(copyRows, &QAction::triggered, this, &ChangesPanel::copy);
-  table_->addAction(copyRows);
+  auto* revertRow = new QAction(tr("Revert this change"), table_);
+  revertRow->setShortcut(QKeySequence::Delete);
+  revertRow->setShortcutContext(Qt::WidgetShortcut);
+  connect(revertRow, &QAction::triggered, this, &ChangesPanel::revert);
+  table_->addActions({copyRows, revertRow});
   table_->setContextMenuPolicy(Qt::ActionsContextMenu);
 }
 
@@ -67,6 +71,15 @@ QString ChangesPanel::summary() const {
 
 void ChangesPanel::goTo(const QModelIndex& index) {
   draft_.undoStack().setIndex(index.row());
+}
+
+void ChangesPanel::revert() {
+  const int row = table_->currentIndex().row();
+  if (row <= 0) return;
+  const Step step = draft_.step(row - 1);
+  std::vector<Draft::KeyValue> values;
+  for (const Change& change : step.changes) values.push_back({change.row->key, change.before});
+  draft_.setValues(values, tr("Revert %1").arg(step.text));
 }
 
 void ChangesPanel::copy() {

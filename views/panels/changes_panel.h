@@ -12,8 +12,8 @@ namespace trimtab::views {
 
 class ChangesModel;
 
-/// The Changes dock: every edit with the values before and after it and its time. It is the history too: a
-/// click or Enter on a row goes back, or forward, to it.
+/// The page Changes: every edit with the values before and after it and its time. It is the history too: a
+/// click or Enter on a row goes back, or forward, to it; Delete takes one change back and keeps later ones.
 class ChangesPanel : public QWidget {
   Q_OBJECT
  public:
@@ -26,6 +26,7 @@ class ChangesPanel : public QWidget {
   void setUpTable();
   void goTo(const QModelIndex& index);
   void copy();
+  void revert();
   void summarise();
 
   Draft& draft_;

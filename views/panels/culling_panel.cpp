@@ -12,6 +12,7 @@
 #include "views/controls/parameter_lines.h"
 #include "views/insets/depth_map_inset.h"
 #include "views/insets/horizon_inset.h"
+#include "views/model/depth_map_reason.h"
 #include "views/model/theme.h"
 #include "views/plots/time_plot.h"
 
@@ -90,23 +91,22 @@ CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
   pick_->setToolTip(tr("Click into the image, and read what is there"));
   work_->setToolTip(tr("Since the terrain was opened. Work whose result is known is left out."));
   connect(pick_, &QPushButton::toggled, this, &CullingPanel::pickingChanged);
-  map_->setReason(tr("The depth map, or the image as the horizon covers it, shows here while it works."));
 
   auto* layout = layout_ = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
   layout->addWidget(new ParameterLines(draft, kCullingKeys));
   layout->addLayout(overlayRow_);
+  auto* pickRow = new QHBoxLayout;
+  pickRow->addWidget(pick_);
+  pickRow->addStretch(1);
+  layout->addLayout(pickRow);
+  layout->addWidget(picked_);
   layout->addWidget(new QLabel(tr("<b>Nodes of the cut, by reason</b>")));
   layout->addWidget(reasons_);
   layout->addWidget(served_);
   layout->addWidget(horizon_, 2);
   layout->addWidget(map_, 3);
   layout->addWidget(work_);
-  auto* pickRow = new QHBoxLayout;
-  pickRow->addWidget(pick_);
-  pickRow->addStretch(1);
-  layout->addLayout(pickRow);
-  layout->addWidget(picked_);
   showPicked(std::nullopt);
   refresh();
 }
@@ -139,10 +139,9 @@ void CullingPanel::showFrame(const LiveFrame& frame) {
 }
 
 void CullingPanel::showMap(const QImage& image, const QString& caption) {
-  if (image.isNull())
-    map_->setReason(caption);
-  else
-    map_->setPicture(image, caption);
+  hasMap_ = !image.isNull();
+  if (hasMap_) return map_->setPicture(image, caption);
+  map_->setReason(whyNoDepthMap(frame_, *draft_.active()));
 }
 
 void CullingPanel::showHorizon(std::vector<float> elevationDeg, double headingDeg, double fovDeg) {
@@ -200,6 +199,8 @@ QString CullingPanel::served() const {
 void CullingPanel::refresh() {
   served_->setText(served());
   if (!hasHorizon_) horizon_->setReason(whyNoHorizon());
+  hasMap_ = hasMap_ && (frame_.drawn().depthMap || frame_.drawn().horizon);
+  if (!hasMap_) map_->setReason(whyNoDepthMap(frame_, *draft_.active()));
   if (stages_) stages_->refresh(true);
   const FrameResult& f = frame_.drawn();
   const FrameCounters& work = f.counters;

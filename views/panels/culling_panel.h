@@ -76,7 +76,7 @@ class CullingPanel : public QWidget {
   QHBoxLayout* overlayRow_;
   QPushButton* pick_;
   LiveFrame frame_;
-  bool hasHorizon_ = false;
+  bool hasHorizon_ = false, hasMap_ = false;
   Throttle throttle_;
 };
 

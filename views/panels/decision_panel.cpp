@@ -40,6 +40,11 @@ QString policyReason(const PolicyOutcome& policy) {
   return text;
 }
 
+/// What a reason says after scheme and depth map.
+QString withoutOutcome(const QString& reason) {
+  return reason.mid(reason.indexOf(QStringLiteral(": ")) + 1).trimmed();
+}
+
 }  // namespace
 
 DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
@@ -143,8 +148,7 @@ void DecisionPanel::showFrame(const LiveFrame& frame) {
   if (log_->isChange(frame.decision)) {
     // Scheme and depth map have columns of their own.
     const QString reason = QString::fromStdString(explain(frame.decision, draft_.active()));
-    log_->append(frame.time, frame.input.state.packet, frame.decision,
-                 reason.mid(reason.indexOf(QStringLiteral(": ")) + 1).trimmed());
+    log_->append(frame.time, frame.input.state.packet, frame.decision, withoutOutcome(reason));
   }
   throttle_.request();
 }
@@ -153,14 +157,16 @@ void DecisionPanel::refresh() {
   const FrameDecision& d = frame_.decision;
   const TuningParameters& p = *draft_.active();
   if (any_) {
+    const QString reason = QString::fromStdString(explain(d, draft_.active()));
+    const QString why = d.occlusionResolution && frame_.result ? whyNoDepthMap(frame_, p) : QString();
+    // A size would say that a map of it was drawn.
     scheme_->setText(d.scheme == Scheme::frustum ? tr("Frustum: view-frustum culling alone")
+                     : !why.isEmpty()            ? tr("Dynamic: no depth map was needed")
                      : d.occlusionResolution     ? tr("Dynamic: depth map %1 × %2 px")
                                                    .arg(d.occlusionResolution->widthPx)
                                                    .arg(d.occlusionResolution->heightPx)
                                              : tr("Dynamic"));
-    const QString reason = QString::fromStdString(explain(d, draft_.active()));
-    const QString why = d.occlusionResolution && frame_.result ? whyNoDepthMap(frame_, p) : QString();
-    reason_->setText(why.isEmpty() ? reason : reason + QStringLiteral(". ") + why);
+    reason_->setText(why.isEmpty() ? reason : withoutOutcome(reason) + QStringLiteral(". ") + why);
     lead_->setVisible(!why.isEmpty());
   }
   if (frame_.levers)

@@ -18,7 +18,7 @@ namespace trimtab::views {
 class BarList;
 class MotionPlot;
 
-/// The Head motion dock: where the head comes from, its rate and the threshold of Eq. (1), both stacks and
+/// The page Head motion: where the head comes from, its rate and the threshold of Eq. (1), both stacks and
 /// their limits, LOD scale and blur, and the reason of each change.
 class MotionPanel : public QWidget {
   Q_OBJECT

@@ -31,7 +31,7 @@ struct PublishedStaticLod {
   std::uint64_t triangles = 30987, trianglesPerNode = 2000, levels = 4, faces = 126520;
 };
 
-/// The Static LOD dock: the trees, what of them is drawn now, and document E's picture with its levels.
+/// The page Static LOD: the trees, what of them is drawn now, and document E's picture with its levels.
 class StaticLodPanel : public QWidget {
   Q_OBJECT
  public:

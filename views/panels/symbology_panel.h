@@ -14,7 +14,7 @@ class QPushButton;
 
 namespace trimtab::views {
 
-/// The Symbology dock: which symbols of the helmet display are shown, with colour, place and size, and the
+/// The page Symbology: which symbols of the helmet display are shown, with colour, place and size, and the
 /// switch for placing them in the image with the mouse.
 class SymbologyPanel : public QWidget {
   Q_OBJECT

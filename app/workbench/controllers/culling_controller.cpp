@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "culling_controller.h"
 
-#include <QDockWidget>
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +11,6 @@
 #include "trimtab/scene/distance_image.h"
 #include "trimtab/scene/node_description.h"
 #include "trimtab/scene/renderer.h"
-#include "views/editors/bands_editor.h"
 #include "views/model/theme.h"
 #include "views/panels/culling_panel.h"
 
@@ -32,26 +30,19 @@ bool isWhiteAllOver(const QImage& grey) {
 }  // namespace
 
 CullingController::CullingController(const Workplace& workplace, FrameController& frame,
-                                     const TerrainController& terrain, views::CullingPanel& panel,
-                                     views::BandsEditor& bands)
-    : at_(workplace), frame_(frame), terrain_(terrain), panel_(panel), bands_(bands) {
+                                     const TerrainController& terrain, views::CullingPanel& panel)
+    : at_(workplace), frame_(frame), terrain_(terrain), panel_(panel) {
   connect(&panel_, &views::CullingPanel::pickingChanged, &at_.viewport, &Viewport::setPicking);
   connect(&at_.viewport, &Viewport::nodePicked, this, &CullingController::showPicked);
   connect(&at_.viewport, &Viewport::depthMapRead, this, &CullingController::showDepthMap);
   connect(&at_.viewport, &Viewport::horizonRead, this, &CullingController::showHorizon);
-  connect(&terrain_, &TerrainController::opened, this, [this] { outline(std::nullopt); });
-  // The outline is the picture of what the dock says, so it shows while the dock does.
-  connect(dockOf(panel_), &QDockWidget::visibilityChanged, this,
-          [this](bool visible) { frame_.setOutline(visible ? picked_ : std::nullopt); });
-  readMapWhileSeen(bands_);
-  readMapWhileSeen(panel_);
-}
-
-/// Reading a map back from GL costs time, so it is read only while a dock shows it.
-void CullingController::readMapWhileSeen(const QWidget& content) {
-  QDockWidget* const dock = dockOf(content);
-  connect(dock, &QDockWidget::visibilityChanged, &at_.viewport,
-          [&viewport = at_.viewport, dock](bool visible) { viewport.setDepthMapWanted(dock, visible); });
+  connect(&terrain_, &TerrainController::opened, this, &CullingController::forgetPicked);
+  // The outline is the picture of what the dock says, so it shows while the dock does. Reading a map back
+  // from GL costs time, so it is read only while it is seen.
+  whenSeen(panel_, this, [this](bool seen) {
+    frame_.setOutline(seen ? picked_ : std::nullopt);
+    at_.viewport.setDepthMapWanted(seen);
+  });
 }
 
 void CullingController::setOverlay(bool Overlays::*flag, bool on) {
@@ -75,10 +66,7 @@ void CullingController::showHorizon(const std::vector<float>& elevationDeg) {
 }
 
 void CullingController::showDepthMap(const QImage& grey) {
-  if (grey.isNull()) {
-    bands_.clearDepthMap();
-    return panel_.showMap({}, tr("Neither a depth map nor a horizon was used in this frame."));
-  }
+  if (grey.isNull()) return panel_.showMap({}, {});
   const auto& last = at_.viewport.lastResult();
   const bool horizon = last && last->horizon && !last->depthMap;
   const QString size = tr("%1 × %2 px").arg(grey.width()).arg(grey.height());
@@ -89,8 +77,12 @@ void CullingController::showDepthMap(const QImage& grey) {
                       .arg(size)
                       .arg(scene::DistanceImage::kNearestM)
                       .arg(scene::DistanceImage::kFarthestM / 1000);
-  bands_.showDepthMap(grey, caption);
   panel_.showMap(grey, caption);
+}
+
+void CullingController::forgetPicked() {
+  outline(std::nullopt);
+  panel_.showPicked(std::nullopt);
 }
 
 void CullingController::outline(const std::optional<Box>& box) {

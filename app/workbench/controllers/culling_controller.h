@@ -14,7 +14,6 @@
 class QDockWidget;
 
 namespace trimtab::views {
-class BandsEditor;
 class CullingPanel;
 }  // namespace trimtab::views
 
@@ -30,14 +29,15 @@ class CullingController : public QObject {
 
  public:
   CullingController(const Workplace& workplace, FrameController& frame, const TerrainController& terrain,
-                    views::CullingPanel& panel, views::BandsEditor& bands);
+                    views::CullingPanel& panel);
 
   void setOverlay(bool Overlays::*flag, bool on);
   /// Static trees: draws one level by itself (-1: each node by its distance), and document E's picture.
+  /// The numbers of a picked node are those of one frame. They say nothing about the frames after it.
+  void forgetPicked();
   void setTreeOverlay(int depth, bool picture);
 
  private:
-  void readMapWhileSeen(const QWidget& content);
   void showDepthMap(const QImage& grey);
   void showHorizon(const std::vector<float>& elevationDeg);
   void showPicked(std::uint32_t node);
@@ -47,7 +47,6 @@ class CullingController : public QObject {
   FrameController& frame_;
   const TerrainController& terrain_;
   views::CullingPanel& panel_;
-  views::BandsEditor& bands_;
   std::optional<Box> picked_;
 };
 

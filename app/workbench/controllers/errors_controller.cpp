@@ -99,11 +99,11 @@ ErrorsController::ErrorsController(const Workplace& workplace, DrawThread& measu
 }
 
 void ErrorsController::attach() {
-  connect(dockOf(*dock_), &QDockWidget::visibilityChanged, this, [this](bool seen) {
+  whenSeen(*dock_, this, [this](bool seen) {
     dock_->setSeen(seen);
     followFlight();
   });
-  connect(dockOf(*split_), &QDockWidget::visibilityChanged, split_, &SplitView::setSeen);
+  whenSeen(*split_, split_, [this](bool seen) { split_->setSeen(seen); });
 }
 
 void ErrorsController::askOpenResults() {
@@ -206,7 +206,8 @@ void ErrorsController::seekFlight(double timeS) {
 
 void ErrorsController::compare() {
   QDockWidget* const dock = dockOf(*split_);
-  if (dock != nullptr && !isInFront(*dock)) {
+  if (!isInFront(*split_)) {
+    broughtToFront_ = true;
     compareWasHidden_ = dock->isHidden();
     dock->show();
     if (const auto* window = qobject_cast<QMainWindow*>(dock->parentWidget()))
@@ -219,11 +220,12 @@ void ErrorsController::compare() {
 
 void ErrorsController::endComparison() {
   split_->setOverViewport(false);
-  QDockWidget* const dock = dockOf(*split_);
-  // A person who went to another dock meanwhile, or moved this one, has arranged the docks by hand.
-  if (dock == nullptr || !coveredByCompare_ || !isInFront(*dock)) return;
-  coveredByCompare_->raise();
-  if (compareWasHidden_) dock->hide();
+  // A person who went to another dock or page meanwhile has arranged the docks by hand.
+  if (!broughtToFront_ || !isInFront(*split_)) return;
+  broughtToFront_ = false;
+  raiseDock(*dock_);
+  if (coveredByCompare_) coveredByCompare_->raise();
+  if (compareWasHidden_) dockOf(*split_)->hide();
   coveredByCompare_.clear();
 }
 

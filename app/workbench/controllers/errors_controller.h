@@ -76,7 +76,7 @@ class ErrorsController : public QObject {
   ErrorDock* dock_;
   SplitView* split_ = nullptr;
   QPointer<QDockWidget> coveredByCompare_;  ///< the dock that was in front in its place
-  bool compareWasHidden_ = false;
+  bool broughtToFront_ = false, compareWasHidden_ = false;
 };
 
 }  // namespace trimtab::workbench

@@ -4,7 +4,7 @@
 #include <QString>
 #include <optional>
 
-#include "app/workbench/docks/experiments_dock.h"
+#include "app/workbench/docks/leverage_page.h"
 #include "workplace.h"
 
 namespace trimtab::workbench {

@@ -12,7 +12,7 @@ class SymbologyPanel;
 
 namespace trimtab::workbench {
 
-/// Lets a person place symbols in the image with the mouse while the Symbology dock's switch is on.
+/// Lets a person place symbols in the image with the mouse while the switch of the page Symbology is on.
 class SymbologyController : public QObject {
   Q_OBJECT
 

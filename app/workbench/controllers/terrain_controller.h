@@ -18,7 +18,7 @@ class TerrainPanel;
 
 namespace trimtab::workbench {
 
-/// Opens and bakes terrain, and tells the Terrain and Static LOD docks what it is.
+/// Opens and bakes terrain, and tells the Terrain dock what it is.
 class TerrainController : public QObject {
   Q_OBJECT
 

@@ -13,7 +13,7 @@ namespace trimtab::workbench {
 
 /// What the Terrain dock says about a terrain.
 views::TerrainSummary summaryOf(const terrain::Database& database);
-/// What the Static LOD dock says about its trees. Returns nothing if it has none.
+/// What the page Static LOD says about its trees. Returns nothing if it has none.
 std::optional<views::StaticLodSummary> treesOf(const terrain::Database& database);
 
 /// Counts the nodes and triangles that a frame drew, by level. Everything is zero if static trees were drawn,

@@ -4,8 +4,21 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QScrollArea>
+#include <QTabWidget>
+#include <memory>
 
 namespace trimtab::workbench {
+namespace {
+
+QTabWidget* pagesOf(const QDockWidget& dock) {
+  return qobject_cast<QTabWidget*>(dock.widget());
+}
+
+bool holds(const QWidget* page, const QWidget& content) {
+  return page == &content || (page != nullptr && page->isAncestorOf(&content));
+}
+
+}  // namespace
 
 QDockWidget* dockOf(const QWidget& content) {
   for (QWidget* holder = content.parentWidget(); holder != nullptr; holder = holder->parentWidget())
@@ -14,20 +27,38 @@ QDockWidget* dockOf(const QWidget& content) {
 }
 
 void raiseDock(const QWidget& content) {
-  if (QDockWidget* const dock = dockOf(content)) {
-    dock->show();
-    dock->raise();
-  }
+  QDockWidget* const dock = dockOf(content);
+  if (dock == nullptr) return;
+  dock->show();
+  dock->raise();
+  if (QTabWidget* const pages = pagesOf(*dock))
+    for (int i = 0; i < pages->count(); ++i)
+      if (holds(pages->widget(i), content)) pages->setCurrentIndex(i);
 }
 
-bool isInFront(const QDockWidget& dock) {
-  return dock.isVisible() && !dock.visibleRegion().isEmpty();
+bool isInFront(const QWidget& widget) {
+  return widget.isVisible() && !widget.visibleRegion().isEmpty();
+}
+
+void whenSeen(const QWidget& content, QObject* context, const std::function<void(bool)>& report) {
+  QDockWidget* const dock = dockOf(content);
+  QTabWidget* const pages = pagesOf(*dock);
+  const auto dockSeen = std::make_shared<bool>(false);
+  const auto say = [=, &content] {
+    report(*dockSeen && (pages == nullptr || holds(pages->currentWidget(), content)));
+  };
+  QObject::connect(dock, &QDockWidget::visibilityChanged, context, [=](bool seen) {
+    *dockSeen = seen;
+    say();
+  });
+  if (pages != nullptr) QObject::connect(pages, &QTabWidget::currentChanged, context, say);
 }
 
 void goTo(QDockWidget& dock) {
   dock.show();
   dock.raise();
   QWidget* content = dock.widget();
+  if (const QTabWidget* pages = pagesOf(dock)) content = pages->currentWidget();
   if (const auto* area = qobject_cast<QScrollArea*>(content)) content = area->widget();
   const auto takesFocus = [content](const QWidget& widget) {
     return content->isAncestorOf(&widget) && widget.isVisible() && widget.isEnabled() &&

@@ -416,6 +416,13 @@ void ErrorDock::showResults() {
   cases_->setCurrentIndex(cases_->count() - 1);
   flights_->setEnabled(flights_->count() > 1);
   cases_->setEnabled(cases_->count() > 1);
+  // The dock is low: what there is nothing to choose from takes no place.
+  for (QLabel* label : findChildren<QLabel*>())
+    if (const auto* box = qobject_cast<QComboBox*>(label->buddy());
+        box != nullptr && (box == flights_ || box == cases_)) {
+      label->setVisible(box->count() > 0);
+      label->buddy()->setVisible(box->count() > 0);
+    }
   if (results_)
     status_->setText(tr("%1, %2 × %3 px")
                          .arg(QString::fromStdString(results_->terrain))
@@ -433,7 +440,10 @@ QString ErrorDock::report() const {
 }
 
 void ErrorDock::openReport() {
-  if (const QString file = report(); !file.isEmpty()) QDesktopServices::openUrl(QUrl::fromLocalFile(file));
+  const QString file = report();
+  if (file.isEmpty() || QDesktopServices::openUrl(QUrl::fromLocalFile(file))) return;
+  emit refused(tr("The report cannot be shown"),
+               {{Severity::error, file.toStdString(), {}, "a program that shows HTML", "none that starts"}});
 }
 
 }  // namespace trimtab::workbench

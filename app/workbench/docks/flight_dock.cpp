@@ -2,6 +2,7 @@
 #include "flight_dock.h"
 #include "app/link/link.h"
 #include "trimtab/host/flight.h"
+#include "views/controls/seek_slider.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -43,7 +44,7 @@ FlightDock::FlightDock(Feed& feed, QWidget* parent)
       play_(new QPushButton(this)),
       stop_(new QPushButton(this)),
       close_(new QPushButton(tr("Close"), this)),
-      scrub_(new QSlider(Qt::Horizontal, this)),
+      scrub_(new views::SeekSlider(this)),
       speed_(new QDoubleSpinBox(this)),
       loop_(new QCheckBox(tr("Loop"), this)),
       via_(new QComboBox(this)) {
@@ -97,8 +98,8 @@ FlightDock::FlightDock(Feed& feed, QWidget* parent)
   connect(&refresh_, &QTimer::timeout, this, &FlightDock::showPosition);
   connect(play_, &QPushButton::clicked, this, [this] { playing() ? pause() : play(); });
   connect(stop_, &QPushButton::clicked, this, &FlightDock::stop);
-  connect(scrub_, &QSlider::sliderMoved, this,
-          [this](int step) { seek(feed_.playback().duration() * step / kScrubSteps); });
+  connect(scrub_, &QSlider::actionTriggered, this,
+          [this] { seek(feed_.playback().duration() * scrub_->sliderPosition() / kScrubSteps); });
   connect(speed_, &QDoubleSpinBox::valueChanged, this, [this](double speed) {
     feed_.playback().setSpeed(speed);
     if (feed_.udpPlayer() != nullptr) feed_.udpPlayer()->setSpeed(speed);

@@ -229,10 +229,11 @@ bool SplitView::follow() {
   std::optional<Frame> frame = source_();
   if (!frame) return false;
   const bool back = last_ && frame->state.time < last_->state.time;
-  const bool same = last_ && frame->state == last_->state;
+  const bool hadFrame = last_.has_value(), same = last_ && frame->state == last_->state;
   const bool blurs = frame->shown.levers.drawn.blurStrength > 0;
   const bool rests = same && !blurs && sameImage(frame->shown, last_->shown);
   last_ = std::move(frame);
+  moves_ = hadFrame && !same;
   if (!same) followed_ = 0;
   for (Chosen& side : sides_) {
     if (!side.session) continue;
@@ -260,8 +261,10 @@ void SplitView::wake() {
 /// Over the viewport old images are not shown: the live one is there.
 void SplitView::showAge() {
   overlay_->setOld(changed_ || shownShrink_ == 0,
-                   terrain_ ? tr("comparing %1 with %2 …").arg(sides_[left].label, sides_[right].label)
-                            : tr("Open a terrain to compare presets over it"));
+                   !terrain_ ? tr("Open a terrain to compare presets over it")
+                   : moves_  ? tr("The view moves: %1 and %2 are compared here as soon as it rests")
+                                  .arg(sides_[left].label, sides_[right].label)
+                            : tr("comparing %1 with %2 …").arg(sides_[left].label, sides_[right].label));
 }
 
 /// What this preset would show of the last frame: one camera and one size, whatever view it asks for.

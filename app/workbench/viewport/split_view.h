@@ -121,7 +121,8 @@ class SplitView : public QWidget {
   std::shared_ptr<const terrain::Database> terrain_;
   std::array<Chosen, 2> sides_;
   std::optional<Frame> last_;
-  int followed_ = 0;  ///< how often rules have followed an image of this state
+  bool moves_ = false;  ///< the last two images were of different states
+  int followed_ = 0;    ///< how often rules have followed an image of this state
   QTimer timer_;
   QElapsedTimer sinceLast_;
   int gapMs_ = 0;  ///< from the start of one comparison to the start of the next

@@ -156,11 +156,8 @@ void Viewport::setNotice(const QString& text) {
   invalidate();
 }
 
-void Viewport::setDepthMapWanted(const QObject* who, bool wanted) {
-  if (!wanted)
-    depthMapWanted_.erase(who);
-  else if (depthMapWanted_.insert(who).second)
-    invalidate();
+void Viewport::setDepthMapWanted(bool wanted) {
+  if (!std::exchange(depthMapWanted_, wanted) && wanted) invalidate();
 }
 
 void Viewport::setPicking(bool on) {
@@ -209,7 +206,7 @@ void Viewport::paintGL() {
     picture = source_(pixels.width(), pixels.height());
   if (picture) {
     FrameRequest& described = picture->pilot ? *picture->pilot : picture->request;
-    described.wholeHorizon = !depthMapWanted_.empty();
+    described.wholeHorizon = depthMapWanted_;
     drawPicture(*picture, pixels.width(), pixels.height());
     placePicture(*picture, pixels);
     picture->overlay.image = pictureAt_;
@@ -333,7 +330,7 @@ scene::BuiltAhead Viewport::buildAhead(std::span<const std::uint32_t> nodes, dou
 }
 
 void Viewport::readDepthMap() {
-  if (depthMapWanted_.empty()) return;
+  if (!depthMapWanted_) return;
   if (sinceDepthMap_.isValid() && sinceDepthMap_.elapsed() < kDepthMapGapMs) return;
   sinceDepthMap_.start();
   constexpr int kBearings = 720;

@@ -8,7 +8,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <vector>
 
@@ -75,9 +74,9 @@ class Viewport : public GlWidget {
   std::optional<Measured> measure(const FrameRequest& request);
   /// Builds meshes for coming images, for so long (Renderer::buildAhead).
   scene::BuiltAhead buildAhead(std::span<const std::uint32_t> nodes, double withinMs);
-  /// While anybody wants it, `depthMapRead` reports the depth maps that were drawn, and `horizonRead` the
-  /// horizons that were used, at most ten per second. Each `who` is counted on its own.
-  void setDepthMapWanted(const QObject* who, bool wanted);
+  /// While this is on, `depthMapRead` reports the depth maps that were drawn, and `horizonRead` the horizons
+  /// that were used, at most ten per second.
+  void setDepthMapWanted(bool wanted);
   /// While this is on, a click emits `nodePicked` instead of turning the camera.
   void setPicking(bool on);
 
@@ -138,7 +137,7 @@ class Viewport : public GlWidget {
   SymbologyEditor* editor_ = nullptr;
   QRectF pictureAt_;  ///< where the last image lies in the widget
   bool cameraEnabled_ = true, dirty_ = false, again_ = false, pointerWanted_ = false, picking_ = false;
-  std::set<const QObject*> depthMapWanted_;
+  bool depthMapWanted_ = false;
   std::optional<QPointF> pickAt_;  ///< in the widget: where the next image is asked for its node
   QPointF lastMouse_;
   QString notice_;

@@ -4,6 +4,7 @@
 #include <QDockWidget>
 #include <QMainWindow>
 #include <QTabBar>
+#include <QTabWidget>
 #include <algorithm>
 #include <array>
 
@@ -24,6 +25,26 @@ void DockLayout::addDock(const char* name, const QString& title, Place place, QW
   dock->setWidget(place == Place::foot ? content : views::scrollable(content, title));
   window_.addDockWidget(areaOf(place), dock);
   docks_.push_back({dock, place});
+}
+
+void DockLayout::addPage(const char* name, const QString& title, QWidget* content) {
+  const auto dock = std::find_if(docks_.begin(), docks_.end(), [name](const Dock& each) {
+    return each.widget->objectName() == QLatin1String(name);
+  });
+  auto* pages = qobject_cast<QTabWidget*>(dock->widget->widget());
+  if (pages == nullptr) {
+    QWidget* const first = dock->widget->widget();
+    pages = new QTabWidget;
+    pages->setDocumentMode(true);
+    pages->setAccessibleName(dock->widget->windowTitle());
+    dock->widget->setWidget(pages);
+    pages->addTab(first, dock->widget->windowTitle());
+  }
+  pages->addTab(dock->place == Place::foot ? content : views::scrollable(content, title), title);
+}
+
+void DockLayout::setQuestion(const char* name, const QString& question) {
+  find(name)->setToolTip(question);
 }
 
 QDockWidget* DockLayout::find(const char* name) const {
@@ -87,7 +108,9 @@ QList<QDockWidget*> DockLayout::put(const std::vector<Arrangement::Group>& group
 void DockLayout::hideAtHome() {
   std::array<QDockWidget*, 3> home{};
   for (const Dock& each : docks_)
-    if (QDockWidget*& at = home[std::size_t(each.place)]; at == nullptr && !each.widget->isHidden())
+    if (QDockWidget*& at = home[std::size_t(each.place)];
+        at == nullptr && !each.widget->isHidden() &&
+        window_.dockWidgetArea(each.widget) == areaOf(each.place))
       at = each.widget;
   for (const Dock& each : docks_) {
     if (!each.widget->isHidden()) continue;

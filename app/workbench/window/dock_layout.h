@@ -44,6 +44,16 @@ class DockLayout {
       viewers_.push_back([content](const views::LiveFrame& frame) { content->showFrame(frame); });
     return content;
   }
+  /// Makes a content one more page of a dock, which shows its pages as tabs from then on.
+  template <class Panel>
+  Panel* join(const char* name, const QString& title, Panel* content) {
+    addPage(name, title, content);
+    if constexpr (requires(const views::LiveFrame& frame) { content->showFrame(frame); })
+      viewers_.push_back([content](const views::LiveFrame& frame) { content->showFrame(frame); });
+    return content;
+  }
+  /// Sets the question that a dock answers, as its tool tip.
+  void setQuestion(const char* name, const QString& question);
   /// Sizes are those of the window as it is now.
   void arrange(const Arrangement& wanted);
   /// Shows every dock where it is at home, as tabs.
@@ -56,6 +66,7 @@ class DockLayout {
     Place place;
   };
   void addDock(const char* name, const QString& title, Place place, QWidget* content);
+  void addPage(const char* name, const QString& title, QWidget* content);
   QDockWidget* find(const char* name) const;
   QList<QDockWidget*> put(const std::vector<Arrangement::Group>& groups, Qt::DockWidgetArea area,
                           Qt::Orientation along);

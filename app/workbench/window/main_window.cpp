@@ -6,6 +6,7 @@
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QDropEvent>
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QMenuBar>
 #include <QMimeData>
@@ -22,9 +23,9 @@
 #include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/error_dock.h"
-#include "app/workbench/docks/experiments_dock.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/docks/host_dock.h"
+#include "app/workbench/docks/leverage_page.h"
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/viewport/split_view.h"
 #include "app/workbench/window/palette_entries.h"
@@ -49,7 +50,7 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kSavedMs = 4000, kHintMs = 8000;
-constexpr qsizetype kWelcomed = 3;
+constexpr qsizetype kWelcomed = 3, kRecent = 2;
 const QString kPlotsGroup = QStringLiteral("workspace_plots/");
 const QString kGeometryKey = QStringLiteral("window/geometry");
 
@@ -102,7 +103,7 @@ void MainWindow::makeControllers() {
   c.terrain = std::make_unique<TerrainController>(at, *panels_.terrain, *panels_.staticLod);
   c.observer = std::make_unique<ObserverController>(at, *c.terrain);
   c.frame = std::make_unique<FrameController>(at, *c.terrain, *c.observer);
-  c.culling = std::make_unique<CullingController>(at, *c.frame, *c.terrain, *panels_.culling, *panels_.bands);
+  c.culling = std::make_unique<CullingController>(at, *c.frame, *c.terrain, *panels_.culling);
   c.flight = std::make_unique<FlightController>(at, *c.observer, *c.terrain, *panels_.flight, *panels_.host);
   c.head = std::make_unique<HeadController>(at, *panels_.motion);
   c.symbology = std::make_unique<SymbologyController>(at, *panels_.symbology);
@@ -114,9 +115,10 @@ void MainWindow::makeControllers() {
 
   using enum DockLayout::Place;
   const auto inputs = [this](const QString& folder) { return controllers_.inputs->write(folder); };
-  panels_.experiments = docks_.add("experiments", tr("Experiments"), foot, new ExperimentsDock(inputs));
+  panels_.leverage = docks_.join("policy", tr("Leverage"), new LeveragePage(inputs));
   docks_.add("errors", tr("Run time against error"), foot, &c.errors->dock());
-  docks_.add("compare", tr("Compare"), foot, &c.errors->splitView());
+  docks_.join("errors", tr("Compare"), &c.errors->splitView());
+  docks_.setQuestion("errors", tr("What does a preset cost, and what error does it make?"));
   workspaces_ = new Workspaces(*this, docks_);
   sessions_ = new SessionKeeper(at, controllers_, *workspaces_, panels_.changes->snapshots());
   c.errors->attach();
@@ -146,6 +148,7 @@ void MainWindow::makeMenus() {
   const Workplace at{draft_, feed_, *viewport_, pause_, *panels_.messages, *this};
   auto* menus = new Menus(*this, at, controllers_, panels_, *sessions_);
   connect(menus, &Menus::everyDockAsked, this, &MainWindow::showEveryDock);
+  connect(menus, &Menus::importAsked, this, &MainWindow::askImport);
   connect(menus, &Menus::welcomeAsked, this, &MainWindow::welcome);
   // Beside the menus, where it costs the image no height.
   menuBar()->setCornerWidget(new WorkspaceBar(*workspaces_, menus->workspaces(), messages(), this));
@@ -169,6 +172,9 @@ void MainWindow::connectParts() {
         QString::fromStdString(controllers_.terrain->database()->info().name));
     updateTitle();
   });
+  connect(c.observer.get(), &ObserverController::frozenChanged, c.culling.get(), [this](bool frozen) {
+    if (!frozen) controllers_.culling->forgetPicked();
+  });
   connect(panels_.staticLod, &views::StaticLodPanel::overlayChanged, c.culling.get(),
           &CullingController::setTreeOverlay);
   connect(&draft_, &views::Draft::dirtyChanged, this, &MainWindow::updateTitle);
@@ -180,7 +186,8 @@ void MainWindow::connectParts() {
           [this](const LiveMeter::Measured& m) {
             if (!controllers_.observer->frozen()) panels_.changes->snapshots().addError(m.error.flip);
           });
-  connect(dockOf(*panels_.changes), &QDockWidget::visibilityChanged, panels_.changes, &ChangesDock::setSeen);
+  whenSeen(*panels_.changes, panels_.changes,
+           [changes = panels_.changes](bool seen) { changes->setSeen(seen); });
   connect(panels_.changes, &ChangesDock::errorsWanted, &c.errors->dock(),
           [this](bool wanted) { controllers_.errors->dock().setWatched(panels_.changes, wanted); });
 
@@ -190,13 +197,13 @@ void MainWindow::connectParts() {
   connect(messages, &MessagePanel::errorAdded, messages, [messages] { raiseDock(*messages); });
   connect(panels_.host, &HostDock::refused, messages, &MessagePanel::add);
   connect(panels_.flight, &FlightDock::refused, messages, &MessagePanel::add);
-  connect(panels_.experiments, &ExperimentsDock::refused, messages, &MessagePanel::add);
+  connect(panels_.leverage, &LeveragePage::refused, messages, &MessagePanel::add);
 }
 
 /// Whatever measures times has the machine for itself.
 void MainWindow::connectPause() {
   pause_.follow(controllers_.errors->dock().child(), &ChildRun::runningChanged, tr("presets are measured"));
-  pause_.follow(panels_.experiments->child(), &ChildRun::runningChanged, tr("an experiment runs"));
+  pause_.follow(panels_.leverage->child(), &ChildRun::runningChanged, tr("leverage is measured"));
   // Comparing says so itself: it goes on and off all the time.
   pause_.follow(controllers_.errors->splitView(), &SplitView::busyChanged, {});
   connect(&pause_, &ViewPause::changed, this, &MainWindow::showPause);
@@ -271,6 +278,12 @@ void MainWindow::openAny(const QString& path) {
     case FileKind::terrain:
       return c.terrain->open(path);
   }
+}
+
+void MainWindow::askImport() {
+  const QString file = QFileDialog::getOpenFileName(this, tr("Import"), {},
+                                                    tr("Policies (*.fll *.fis);;All files (*)"));
+  if (!file.isEmpty()) openAny(file);
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -358,6 +371,16 @@ void MainWindow::welcome() {
   for (const QString& path : recentFiles(QStringLiteral("session")).mid(0, kWelcomed))
     if (QFileInfo::exists(path))
       again.ways.push_back({nameOf(path), path, [this, path] { sessions_->open(path); }});
+  Welcome::Group recent{tr("Recent"), {}};
+  const auto addRecent = [&](const QString& kind, const QString& detail, const auto& open) {
+    for (const QString& path : recentFiles(kind).mid(0, kRecent))
+      if (QFileInfo::exists(path))
+        recent.ways.push_back({nameOf(path), detail.arg(path), [open, path] { open(path); }});
+  };
+  addRecent(QStringLiteral("terrain"), tr("terrain: %1"),
+            [this](const QString& path) { controllers_.terrain->open(path); });
+  addRecent(QStringLiteral("flight"), tr("flight: %1"),
+            [this](const QString& path) { controllers_.flight->open(path); });
   Welcome::Group open{
       tr("Open or import"),
       {{tr("A terrain"), tr("elevation files, scenery or a database"),
@@ -387,7 +410,7 @@ void MainWindow::welcome() {
                            openSample();
                            if (controllers_.flight->open(path)) feed_.playHere();
                          }});
-  (new Welcome({again, begin, open}, this))->open();
+  (new Welcome({again, begin, open, recent}, this))->open();
 }
 
 void MainWindow::takeScreenshotSoon() {

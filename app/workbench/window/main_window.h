@@ -70,6 +70,7 @@ class MainWindow : public QMainWindow {
   void connectPause();
   void showPause();
   void welcome();
+  void askImport();
   void connectParts();
   void restoreSize();
   void showPlotsOf(int workspace);

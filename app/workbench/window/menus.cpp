@@ -6,11 +6,13 @@
 #include <QApplication>
 #include <QDockWidget>
 #include <QFileInfo>
+#include <QKeyEvent>
 #include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
 #include <QStyle>
 #include <QToolBar>
+#include <QToolButton>
 
 #include "app/workbench/controllers/controllers.h"
 #include "app/workbench/controllers/recent_files.h"
@@ -73,6 +75,19 @@ Menus::Menus(QMainWindow& window, const Workplace& workplace, const Controllers&
   makeViewMenu();
   makeFlightMenu();
   makeHelpMenu();
+  qApp->installEventFilter(this);
+}
+
+/// Where a text is edited, X11 gives Ctrl+E and Ctrl+K to the cursor. Here they are commands everywhere.
+bool Menus::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto& key = static_cast<const QKeyEvent&>(*event);
+    if (key.modifiers() == Qt::ControlModifier && (key.key() == Qt::Key_E || key.key() == Qt::Key_K)) {
+      event->ignore();
+      return true;
+    }
+  }
+  return QObject::eventFilter(watched, event);
 }
 
 void Menus::add(QMenu& menu, std::initializer_list<Command> commands) {
@@ -110,10 +125,10 @@ void Menus::makeFileMenu() {
               tr("Exports to the last target of this preset without a question; asks if there is none"),
               &exporting},
              {tr("&Export for an image generator..."), tr("Ctrl+Shift+E"), [&] { document.askExport(); }},
-             {tr("Import polic&y..."),
+             {tr("&Import..."),
               {},
-              [this] { panels_.policy->askAndImport(); },
-              tr("Terms and rules that set the levers")},
+              [this] { emit importAsked(); },
+              tr("A policy, or whatever else this program can open")},
              {tr("Export poli&cy..."),
               {},
               [this] { panels_.policy->askAndExport(); },
@@ -314,8 +329,14 @@ void Menus::makeViewMenu() {
   auto* bar = window_.addToolBar(tr("View"));
   bar->setObjectName(QStringLiteral("view_toolbar"));
   bar->setToolButtonStyle(Qt::ToolButtonTextOnly);
-  bar->addActions({wireframe, bounds, byReason, byLevel, freeze, detach});
-  panels_.terrain->setActions(terrainActions_, {byLevel, wireframe, bounds, voids, squares});
+  auto* colours = new QToolButton(bar);
+  colours->setText(tr("Overlays"));
+  colours->setToolTip(tr("Colours and lines over the image"));
+  colours->setPopupMode(QToolButton::InstantPopup);
+  colours->addActions({wireframe, bounds, byReason, byLevel, voids, squares});
+  bar->addWidget(colours);
+  bar->addActions({freeze, detach});
+  panels_.terrain->setActions(terrainActions_, {byLevel, wireframe, voids});
   panels_.culling->setActions({byReason, bounds, freeze, detach});
 }
 
@@ -380,7 +401,8 @@ void Menus::addDocks(QMenu& view) {
     go->setChecked(!each->isHidden());
     // A click toggles the mark by itself; what the dock does decides.
     connect(go, &QAction::triggered, each, [each, go] { go->setChecked(!each->isHidden()); });
-    connect(each->toggleViewAction(), &QAction::toggled, go, &QAction::setChecked);
+    // While a layout is put in place, Qt shows docks that it hides again.
+    connect(&docks, &QMenu::aboutToShow, each, [each, go] { go->setChecked(!each->isHidden()); });
   }
   add(docks, {{}, {tr("Show &every dock"), {}, [this] { emit everyDockAsked(); }}});
 }

@@ -35,6 +35,7 @@ class Menus : public QObject {
 
  signals:
   void everyDockAsked();
+  void importAsked();
   void welcomeAsked();
 
  private:
@@ -48,6 +49,7 @@ class Menus : public QObject {
   };
   void add(QMenu& menu, std::initializer_list<Command> commands);
   QAction* addOverlay(QMenu& view, const QString& text, const QString& keys, bool Overlays::*flag);
+  bool eventFilter(QObject* watched, QEvent* event) override;
   void makeFileMenu();
   void makeEditMenu();
   void addSnapshots(QMenu& edit);

@@ -36,12 +36,32 @@ void connectEditors(const views::ParameterTable& parameters, views::PolicyPanel&
                      const std::string name = key.toStdString();
                      if (name == views::key::kBands) {
                        raiseDock(bands);
-                       dockOf(bands)->widget()->setFocus();
+                       goTo(*dockOf(bands));
                        return;
                      }
                      raiseDock(policy);
                      policy.showEditorOf(name);
                    });
+}
+
+/// The one question that each dock answers.
+void askQuestions(DockLayout& docks) {
+  constexpr std::pair<const char*, const char*> kQuestions[] = {
+      {"policy", QT_TRANSLATE_NOOP("QObject", "Which rules set the levers, and what is each lever worth?")},
+      {"culling", QT_TRANSLATE_NOOP("QObject", "What is not drawn in this frame, and why?")},
+      {"terrain",
+       QT_TRANSLATE_NOOP("QObject", "What is the ground made of, and at which levels is it drawn?")},
+      {"weather",
+       QT_TRANSLATE_NOOP("QObject", "What does the weather add, and what does it allow to leave out?")},
+      {"preset", QT_TRANSLATE_NOOP("QObject", "What is the value of each parameter, and what was changed?")},
+      {"decision", QT_TRANSLATE_NOOP("QObject", "What was decided for this frame, and why?")},
+      {"budget",
+       QT_TRANSLATE_NOOP("QObject", "Is the frame within its budget, and what is given up for that?")},
+      {"host", QT_TRANSLATE_NOOP("QObject", "Does the host send what the image needs?")},
+      {"flight", QT_TRANSLATE_NOOP("QObject", "Where does the aircraft fly, and where does the pilot look?")},
+      {"plots", QT_TRANSLATE_NOOP("QObject", "When did something change?")},
+      {"messages", QT_TRANSLATE_NOOP("QObject", "What went wrong?")}};
+  for (const auto& [name, question] : kQuestions) docks.setQuestion(name, QObject::tr(question));
 }
 
 }  // namespace
@@ -51,27 +71,29 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   const auto tr = [](const char* text) { return QObject::tr(text); };
   Panels panels;
   panels.policy = docks.add("policy", tr("Policy"), edit, new views::PolicyPanel(draft));
-  panels.bands = docks.add("depth_map", tr("Depth map"), edit, new views::BandsEditor(draft));
   panels.culling = docks.add("culling", tr("Culling"), edit, new views::CullingPanel(draft));
+  panels.bands = docks.join("culling", tr("Depth map"), new views::BandsEditor(draft));
   panels.terrain = docks.add("terrain", tr("Terrain"), edit, new views::TerrainPanel(draft));
-  panels.staticLod = docks.add("static_lod", tr("Static LOD"), edit, new views::StaticLodPanel(draft));
+  panels.staticLod = docks.join("terrain", tr("Static LOD"), new views::StaticLodPanel(draft));
   panels.weather = docks.add("weather", tr("Weather"), edit, new views::WeatherPanel(draft));
-  panels.symbology = docks.add("symbology", tr("Symbology"), edit, new views::SymbologyPanel(draft));
   panels.parameters = docks.add("preset", tr("Preset"), edit, new views::ParameterTable(draft));
   auto* const decision = docks.add("decision", tr("Decision"), effect, new views::DecisionPanel(draft));
   panels.budget = docks.add("budget", tr("Budget"), effect, new views::BudgetPanel(draft));
-  panels.motion = docks.add("motion", tr("Head motion"), effect, new views::MotionPanel(draft));
   panels.host = docks.add("host", tr("Host"), effect, new HostDock(feed, draft));
   panels.flight = docks.add("flight", tr("Flight"), effect, new FlightDock(feed));
+  panels.motion = docks.join("flight", tr("Head motion"), new views::MotionPanel(draft));
+  panels.symbology = docks.join("flight", tr("Symbology"), new views::SymbologyPanel(draft));
   QObject::connect(panels.budget, &views::BudgetPanel::replayAsked, panels.flight, &FlightDock::fly);
   panels.plots = docks.add("plots", tr("Plots"), foot, new views::PlotsPanel(draft));
   panels.messages = docks.add("messages", tr("Messages"), foot, new MessagePanel);
-  panels.changes = docks.add("history", tr("Changes"), foot, new ChangesDock(draft));
+  panels.changes = docks.join("preset", tr("Changes"), new ChangesDock(draft));
+  askQuestions(docks);
   panels.culling->showStages(panels.plots->buffer());
   connectEditors(*panels.parameters, *panels.policy, *panels.bands);
-  const auto toCulling = [culling = panels.culling] { goTo(*dockOf(*culling)); };
-  QObject::connect(panels.bands, &views::BandsEditor::cullingAsked, panels.culling, toCulling);
-  QObject::connect(decision, &views::DecisionPanel::cullingAsked, panels.culling, toCulling);
+  QObject::connect(decision, &views::DecisionPanel::cullingAsked, panels.culling, [culling = panels.culling] {
+    raiseDock(*culling);
+    goTo(*dockOf(*culling));
+  });
   return panels;
 }
 

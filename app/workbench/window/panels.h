@@ -20,10 +20,10 @@ namespace trimtab::workbench {
 
 class ChangesDock;
 class DockLayout;
-class ExperimentsDock;
 class Feed;
 class FlightDock;
 class HostDock;
+class LeveragePage;
 class MessagePanel;
 
 /// The contents of those docks that the window and its controllers use. The docks own them.
@@ -43,10 +43,10 @@ struct Panels {
   views::PlotsPanel* plots = nullptr;
   MessagePanel* messages = nullptr;
   ChangesDock* changes = nullptr;
-  ExperimentsDock* experiments = nullptr;  ///< made by the window, because it needs controllers
+  LeveragePage* leverage = nullptr;  ///< made by the window, because it needs controllers
 };
 
-/// Makes every dock but Experiments and Run time against error, which need controllers.
+/// Makes every dock but Run time against error and every page but Leverage, which need controllers.
 Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed);
 
 }  // namespace trimtab::workbench

@@ -16,31 +16,34 @@
 namespace trimtab::workbench {
 namespace {
 
-/// Raise it when docks come or go, so that no old layout is forced on new docks.
-constexpr int kDocksVersion = 5;
+/// Raise it when docks come or go, so that no old layout replaces what ships. What a person saved is still
+/// opened: Qt passes over docks that are gone.
+constexpr int kDocksVersion = 6, kOldestVersion = 5;
 constexpr auto kVersionKey = "trimtab_workspace", kNameKey = "name", kStateKey = "docks";
+
+constexpr double kRight = 0.385;  ///< of the window's width
 
 struct Shipped {
   const char* name;
   Arrangement docks;
 };
 
-/// What each job needs, at 1280x720.
+/// What each job needs, with at least half of a window of 1280x720 left for the image: docks on the right, or
+/// at the foot, not both.
 const std::array<Shipped, 5>& shippedList() {
   static const std::array<Shipped, 5> list{{
       {QT_TRANSLATE_NOOP("Workspaces", "Fly"),
-       {{{{"decision"}, 0.62}, {{"flight", "motion", "symbology"}, 0.38}}, {{{"plots"}, 1}}, 0.32, 0.4}},
+       {{{{"decision", "plots"}, 0.6}, {{"flight"}, 0.4}}, {}, kRight}},
       {QT_TRANSLATE_NOOP("Workspaces", "Tune"),
-       {{{{"policy", "depth_map", "weather", "preset"}, 1}},
-        {{{"budget", "decision", "plots", "history"}, 1}},
-        0.46,
-        0.42}},
+       {{{{"policy", "weather", "culling", "preset"}, 0.6}, {{"budget", "decision", "plots"}, 0.4}},
+        {},
+        kRight}},
       {QT_TRANSLATE_NOOP("Workspaces", "Measure"),
-       {{{{"flight", "preset"}, 1}}, {{{"errors", "experiments", "compare"}, 1}}, 0.36, 0.52, true}},
+       {{}, {{{"errors"}, 0.68}, {{"flight", "preset"}, 0.32}}, 0, 0.32, true}},
       {QT_TRANSLATE_NOOP("Workspaces", "Terrain"),
-       {{{{"terrain", "culling", "static_lod"}, 1}}, {{{"messages"}, 1}}, 0.42, 0.24}},
+       {{{{"terrain", "culling"}, 0.78}, {{"messages"}, 0.22}}, {}, kRight}},
       {QT_TRANSLATE_NOOP("Workspaces", "Connect"),
-       {{{{"host"}, 0.72}, {{"flight"}, 0.28}}, {{{"plots", "messages"}, 1}}, 0.4, 0.4}},
+       {{{{"host"}, 0.6}, {{"flight", "plots", "messages"}, 0.4}}, {}, kRight}},
   }};
   return list;
 }
@@ -76,9 +79,15 @@ void Workspaces::apply(int index) {
   current_ = index;
   const Workspace& wanted = all_[std::size_t(index)];
   const bool asLeft = !wanted.left.isEmpty() && window_.restoreState(wanted.left, kDocksVersion);
-  if (!asLeft && (wanted.saved.isEmpty() || !window_.restoreState(wanted.saved, kDocksVersion)))
+  if (!asLeft && !restore(wanted.saved))
     docks_.arrange(shippedList()[std::min(std::size_t(index), shipped() - 1)].docks);
   emit currentChanged(index);
+}
+
+bool Workspaces::restore(const QByteArray& state) {
+  for (int version = kDocksVersion; version >= kOldestVersion && !state.isEmpty(); --version)
+    if (window_.restoreState(state, version)) return true;
+  return false;
 }
 
 void Workspaces::reset() {
@@ -127,12 +136,13 @@ Findings Workspaces::readFrom(const QString& file) {
   const Result<std::string> text = readWhole(file.toStdString());
   if (!text) return text.findings();
   const QJsonObject object = QJsonDocument::fromJson(QByteArray::fromStdString(*text)).object();
-  if (object[QLatin1String(kVersionKey)].toInt() != kDocksVersion)
+  const int version = object[QLatin1String(kVersionKey)].toInt();
+  if (version < kOldestVersion || version > kDocksVersion)
     return refusal(file, "a workspace of this version of the program",
                    object.isEmpty() ? tr("another file") : tr("another version"));
   const QByteArray state = QByteArray::fromBase64(object[QLatin1String(kStateKey)].toString().toLatin1());
   const QByteArray before = window_.saveState(kDocksVersion);
-  if (state.isEmpty() || !window_.restoreState(state, kDocksVersion)) {
+  if (!restore(state)) {
     window_.restoreState(before, kDocksVersion);
     return refusal(file, "places of docks", tr("bytes that are none"));
   }

@@ -59,6 +59,9 @@ class Workspaces : public QObject {
   };
   static std::size_t shipped();
   void apply(int index);
+  /// Puts the docks as this or an earlier version of the program saved them. Returns false if it is no
+  /// layout.
+  bool restore(const QByteArray& state);
   QString keptName(std::size_t index) const;
   void add(const QString& name, const QByteArray& state);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "experiments_dock.h"
+#include "leverage_page.h"
 
 #include <QComboBox>
 #include <QDir>
@@ -14,38 +14,17 @@
 #include <QRegularExpression>
 #include <QRegularExpressionValidator>
 #include <QSpinBox>
-#include <QSplitter>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QVBoxLayout>
-#include <algorithm>
 #include <cmath>
 
 #include "app/experiment/leverage.h"
-#include "views/model/theme.h"
 #include "views/model/value_text.h"
 #include "views/plots/report_plot.h"
 
 namespace trimtab::workbench {
 namespace {
-
-struct Named {
-  const char *command, *label, *documents;
-};
-constexpr char kLeverage[] = "leverage";
-constexpr Named kExperiments[] = {
-    {"culling", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: none, view frustum, proposed"), "A, B"},
-    {"culling-per-node", QT_TRANSLATE_NOOP("ExperimentsDock", "Culling: decided by frame or by node"), "A"},
-    {"head-motion", QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: a sweep of 180° in 1 s"), "C"},
-    {"head-motion-varying",
-     QT_TRANSLATE_NOOP("ExperimentsDock", "Head motion: turns and nods of varying speed"), "C"},
-    {"weather", QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: fixed and adaptive ratio"), "D"},
-    {"weather-protocol", QT_TRANSLATE_NOOP("ExperimentsDock", "Weather: one ratio at several vertex counts"),
-     "D"},
-    {"static-lod", QT_TRANSLATE_NOOP("ExperimentsDock", "Static LOD: faces by level"), "E"},
-    {kLeverage, QT_TRANSLATE_NOOP("ExperimentsDock", "Leverage: what each lever is worth in this flight"),
-     ""},
-};
 
 QTableWidget* makeTable(const QString& name, QWidget* parent) {
   auto* table = new QTableWidget(parent);
@@ -77,14 +56,6 @@ void fill(QTableWidget& table, const experiment::Table& from) {
   table.resizeColumnsToContents();
 }
 
-/// Reads what the command printed.
-Result<experiment::Report> reportIn(std::string_view json, bool leverage) {
-  if (!leverage) return experiment::parseReport(json, "trimtab-cli");
-  const Result<experiment::Leverage> read = experiment::parseLeverage(json, "trimtab-cli");
-  if (!read) return read.findings();
-  return experiment::toReport(*read);
-}
-
 views::ReportPlotData toView(const experiment::Plot& plot) {
   views::ReportPlotData data{QString::fromStdString(plot.title),
                              QString::fromStdString(plot.xLabel),
@@ -102,10 +73,9 @@ views::ReportPlotData toView(const experiment::Plot& plot) {
 
 }  // namespace
 
-ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
+LeveragePage::LeveragePage(Source source, QWidget* parent)
     : QWidget(parent),
       source_(std::move(source)),
-      which_(new QComboBox(this)),
       plots_(new QComboBox(this)),
       size_(new QLineEdit(QStringLiteral("1280x720"), this)),
       repeats_(new QSpinBox(this)),
@@ -114,18 +84,9 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
       progress_(new QProgressBar(this)),
       status_(new QLabel(this)),
       machine_(new QLabel(this)),
-      published_(makeTable(tr("Published rows"), this)),
-      measured_(makeTable(tr("Measured rows"), this)),
+      measured_(makeTable(tr("What each lever is worth"), this)),
       plot_(new views::ReportPlot(this)),
       notes_(new QPlainTextEdit(this)) {
-  for (const Named& each : kExperiments) {
-    which_->addItem(tr(each.label), QLatin1String(each.command));
-    which_->setItemData(which_->count() - 1,
-                        QStringLiteral("%1%2").arg(tr(each.label), views::documentsHtml(each.documents)),
-                        Qt::ToolTipRole);
-  }
-  which_->setAccessibleName(tr("Experiment"));
-  which_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   size_->setValidator(new QRegularExpressionValidator(
       QRegularExpression(QStringLiteral("[1-9][0-9]{1,4}x[1-9][0-9]{1,4}")), size_));
   size_->setMaximumWidth(90);
@@ -133,9 +94,7 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
   repeats_->setRange(1, 100);
   repeats_->setValue(3);
   repeats_->setSuffix(tr(" frames"));
-  repeats_->setToolTip(
-      tr("Frames per view; their median counts. Head motion flies so many passes, and six tell whether it "
-         "gains"));
+  repeats_->setToolTip(tr("Frames per view; their median counts"));
   repeats_->setAccessibleName(tr("Frames per view"));
   notes_->setReadOnly(true);
   notes_->setAccessibleName(tr("Notes"));
@@ -144,33 +103,22 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
   save_->setEnabled(false);
 
   auto* top = new QHBoxLayout;
-  top->addWidget(which_, 1);
   auto* sizeLabel = new QLabel(tr("Si&ze"), this);
   sizeLabel->setBuddy(size_);
   top->addWidget(sizeLabel);
   top->addWidget(size_);
   top->addWidget(repeats_);
+  top->addStretch(1);
   top->addWidget(run_);
   top->addWidget(save_);
 
-  const auto titled = [this](const QString& title, QTableWidget* table) {
-    auto* box = new QWidget(this);
-    auto* column = new QVBoxLayout(box);
-    column->setContentsMargins(0, 0, 0, 0);
-    column->addWidget(new QLabel(title, box));
-    column->addWidget(table);
-    return box;
-  };
-  auto* tables = new QSplitter(Qt::Horizontal, this);
-  tables->addWidget(titled(tr("Published"), published_));
-  tables->addWidget(titled(tr("Measured here"), measured_));
   auto* plotPage = new QWidget(this);
   auto* plotColumn = new QVBoxLayout(plotPage);
   plots_->setAccessibleName(tr("Plot"));
   plotColumn->addWidget(plots_);
   plotColumn->addWidget(plot_, 1);
   auto* tabs = new QTabWidget(this);
-  tabs->addTab(tables, tr("&Tables"));
+  tabs->addTab(measured_, tr("&Table"));
   tabs->addTab(plotPage, tr("&Plots"));
   tabs->addTab(notes_, tr("&Notes"));
 
@@ -182,80 +130,63 @@ ExperimentsDock::ExperimentsDock(Source source, QWidget* parent)
   column->addWidget(machine_);
 
   connect(run_, &QPushButton::clicked, this, [this] { running() ? cancel() : run(); });
-  connect(save_, &QPushButton::clicked, this, &ExperimentsDock::save);
-  const auto explain = [this] {
-    which_->setToolTip(which_->itemData(which_->currentIndex(), Qt::ToolTipRole).toString());
-  };
-  explain();
-  connect(which_, &QComboBox::currentIndexChanged, this, [this, explain] {
-    if (which_->currentData().toString().startsWith(QLatin1String("head-motion")))
-      repeats_->setValue(std::max(repeats_->value(), 6));
-    explain();
-    if (status_->text() == refusal_) status_->setText(hint());
-  });
-  connect(plots_, &QComboBox::currentIndexChanged, this, &ExperimentsDock::showPlot);
+  connect(save_, &QPushButton::clicked, this, &LeveragePage::save);
+  connect(plots_, &QComboBox::currentIndexChanged, this, &LeveragePage::showPlot);
   connect(&child_, &ChildRun::progressed, this, [this](int percent, const QString& what) {
     progress_->setValue(percent);
     status_->setText(what);
   });
-  connect(&child_, &ChildRun::ended, this, &ExperimentsDock::onEnded);
+  connect(&child_, &ChildRun::ended, this, &LeveragePage::onEnded);
   setRunning(false);
 }
 
-void ExperimentsDock::setRunning(bool running) {
+void LeveragePage::setRunning(bool running) {
   run_->setText(running ? tr("&Cancel") : tr("&Run"));
   progress_->setVisible(running);
   progress_->setValue(0);
-  for (QWidget* input :
-       {static_cast<QWidget*>(which_), static_cast<QWidget*>(size_), static_cast<QWidget*>(repeats_)})
-    input->setEnabled(!running);
-  if (!running && !report_) status_->setText(hint());
+  size_->setEnabled(!running);
+  repeats_->setEnabled(!running);
+  if (!running && !report_)
+    status_->setText(
+        tr("Measures along the open flight with the current preset, on this machine. Other programs disturb "
+           "the times."));
 }
 
-QString ExperimentsDock::hint() const {
-  if (report_) return {};
-  return tr(
-      "Runs over the open terrain, the open flight and the current preset, on this machine. Other programs "
-      "disturb the times.");
-}
-
-void ExperimentsDock::run() {
+void LeveragePage::run() {
   if (running()) return;
   const std::optional<ExperimentInputs> inputs = source_(folder_.path());
+  // What a person has to do first stands here, where the person looks: the Messages dock would cover it.
   if (!inputs)
-    return refuse(tr(
-        "Not started: an experiment needs an open terrain (Ctrl+T opens one), and the dock Messages says if "
-        "its input could not be written."));
-  const QString command = which_->currentData().toString();
-  const bool leverage = command == QLatin1String(kLeverage);
-  if (leverage && inputs->flight.isEmpty())
-    return refuse(tr("Not started: leverage is measured along a flight. Ctrl+L opens one."));
-  QStringList arguments;
-  if (!leverage) arguments << QStringLiteral("experiment");
-  arguments << command << QStringLiteral("--terrain") << inputs->terrain << QStringLiteral("--preset")
-            << inputs->preset << QStringLiteral("--size") << size_->text() << QStringLiteral("--repeats")
-            << QString::number(repeats_->value()) << QStringLiteral("--json");
-  if (!inputs->flight.isEmpty()) arguments << QStringLiteral("--flight") << inputs->flight;
+    return status_->setText(tr(
+        "Not started: leverage needs an open terrain (Ctrl+T opens one), and the dock Messages says if its "
+        "input could not be written."));
+  if (inputs->flight.isEmpty())
+    return status_->setText(tr("Not started: leverage is measured along a flight. Ctrl+L opens one."));
+  const QStringList arguments{QStringLiteral("leverage"),
+                              QStringLiteral("--terrain"),
+                              inputs->terrain,
+                              QStringLiteral("--preset"),
+                              inputs->preset,
+                              QStringLiteral("--size"),
+                              size_->text(),
+                              QStringLiteral("--repeats"),
+                              QString::number(repeats_->value()),
+                              QStringLiteral("--json"),
+                              QStringLiteral("--flight"),
+                              inputs->flight};
   setRunning(true);
   status_->setText(tr("Starting…"));
   child_.start(arguments);
 }
 
-/// What a person has to do first stands here, where the person looks: the Messages dock would cover it.
-void ExperimentsDock::refuse(const QString& why) {
-  refusal_ = why;
-  status_->setText(why);
-}
-
-void ExperimentsDock::cancel() {
+void LeveragePage::cancel() {
   if (!running()) return;
   status_->setText(tr("Cancelling…"));
   child_.cancel();
 }
 
-void ExperimentsDock::onEnded(const ChildRun::Ended& how) {
+void LeveragePage::onEnded(const ChildRun::Ended& how) {
   setRunning(false);
-  const QString name = which_->currentText();
   if (how.cancelled) {
     status_->setText(tr("Cancelled; the earlier results are kept."));
     emit finished(false);
@@ -263,30 +194,26 @@ void ExperimentsDock::onEnded(const ChildRun::Ended& how) {
   }
   Findings findings = how.findings;
   if (how.good) {
-    Result<experiment::Report> report =
-        reportIn(std::string_view(how.output.constData(), std::size_t(how.output.size())),
-                 which_->currentData().toString() == QLatin1String(kLeverage));
-    findings = report.findings();
-    if (report) {
+    const Result<experiment::Leverage> read = experiment::parseLeverage(
+        std::string_view(how.output.constData(), std::size_t(how.output.size())), "trimtab-cli");
+    findings = read.findings();
+    if (read) {
       findings.clear();  // notes
-      report_ = std::move(report).value();
+      report_ = experiment::toReport(*read);
     }
   }
   if (!findings.empty()) {
     status_->setText(tr("Failed; the earlier results are kept."));
-    emit refused(tr("The experiment failed"), findings);
+    emit refused(tr("Leverage was not measured"), findings);
     emit finished(false);
     return;
   }
-  status_->setText(tr("Done: %1").arg(name));
+  status_->setText(tr("Done"));
   show(*report_);
   emit finished(true);
 }
 
-void ExperimentsDock::show(const experiment::Report& report) {
-  fill(*published_, report.published);
-  // No document has published leverage.
-  published_->parentWidget()->setVisible(!report.published.rows.empty());
+void LeveragePage::show(const experiment::Report& report) {
   fill(*measured_, report.measured);
   machine_->setText(QString::fromStdString(report.machine));
   QStringList notes;
@@ -297,12 +224,12 @@ void ExperimentsDock::show(const experiment::Report& report) {
   save_->setEnabled(true);
 }
 
-void ExperimentsDock::showPlot(int index) {
+void LeveragePage::showPlot(int index) {
   if (!report_ || index < 0 || index >= int(report_->plots.size())) return plot_->clear();
   plot_->show(toView(report_->plots[std::size_t(index)]));
 }
 
-void ExperimentsDock::save() {
+void LeveragePage::save() {
   const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder for tables and plots"));
   if (folder.isEmpty() || !report_) return;
   const auto written = experiment::writeReport(folder.toStdString(), *report_);

@@ -29,10 +29,9 @@ struct ExperimentInputs {
   QString terrain, flight, preset;  ///< the flight may be empty
 };
 
-/// Runs the published experiments over the open terrain, flight and preset, and shows the published rows
-/// beside the measured ones; leverage, which no document has, alone. They run as a program of their own, so
-/// that cancelling always works.
-class ExperimentsDock : public QWidget {
+/// Measures what each lever is worth along the open flight, and shows it as a table and plots. It runs as a
+/// program of its own, so that cancelling always works.
+class LeveragePage : public QWidget {
   Q_OBJECT
 
  public:
@@ -40,7 +39,7 @@ class ExperimentsDock : public QWidget {
   /// fails, which it reports.
   using Source = std::function<std::optional<ExperimentInputs>(const QString& folder)>;
 
-  explicit ExperimentsDock(Source source, QWidget* parent = nullptr);
+  explicit LeveragePage(Source source, QWidget* parent = nullptr);
 
   void run();
   void cancel();
@@ -58,22 +57,19 @@ class ExperimentsDock : public QWidget {
   void showPlot(int index);
   void save();
   void setRunning(bool running);
-  void refuse(const QString& why);
-  QString hint() const;
 
   Source source_;
   ChildRun child_;
   QTemporaryDir folder_;
   std::optional<experiment::Report> report_;
-  QString refusal_;  ///< why the last run was not started; empty before the first refusal
 
-  QComboBox *which_, *plots_;
+  QComboBox* plots_;
   QLineEdit* size_;
   QSpinBox* repeats_;
   QPushButton *run_, *save_;
   QProgressBar* progress_;
   QLabel *status_, *machine_;
-  QTableWidget *published_, *measured_;
+  QTableWidget* measured_;
   views::ReportPlot* plot_;
   QPlainTextEdit* notes_;
 };
