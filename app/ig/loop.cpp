@@ -44,7 +44,7 @@ class Loop {
         sleep();
     }
     // What arrived before the stop is decided and counted, though no image can show it.
-    if (run_.wake.stop()) run_.feed.advance(run_.session, link::now());
+    if (run_.options.listen && run_.wake.stop()) run_.feed.advance(run_.session, link::now());
     complain(link::now());
     return finishedSummary();
   }

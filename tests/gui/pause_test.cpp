@@ -87,7 +87,6 @@ class Pause : public Bench {
 };
 
 TEST_F(Pause, theViewStandsStillWhileLeverageIsMeasuredAndGoesOnWhenItIsCancelled) {
-  ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   workbench::LeveragePage& page = *w().panels().leverage;
   page.run();
   expectPaused([&] { return page.running(); }, "leverage is measured");

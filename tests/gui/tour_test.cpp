@@ -236,7 +236,8 @@ class Tour : public Bench {
     workbench::SplitView& split = w().controllers().errors->splitView();
     using Form = workbench::SplitPicture::Form;
     keysOf("In the viewport");
-    EXPECT_TRUE(split.overViewport() && comesToFront(split));
+    EXPECT_TRUE(split.overViewport());
+    EXPECT_TRUE(comesToFront(split));
     hand_->choose(split, "Preset on the right", "as-published");
     ASSERT_TRUE(waitFor([&] { return split.comparisons() > 0 && split.upToDate(); }))
         << w().messages().text().toStdString();

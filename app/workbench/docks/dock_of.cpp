@@ -37,7 +37,11 @@ void raiseDock(const QWidget& content) {
 }
 
 bool isInFront(const QWidget& widget) {
-  return widget.isVisible() && !widget.visibleRegion().isEmpty();
+  // Qt calls a dock behind another tab visible, but not a page behind another one.
+  const auto* own = qobject_cast<const QDockWidget*>(&widget);
+  const QDockWidget* const dock = own != nullptr ? own : dockOf(widget);
+  const QWidget& seen = dock != nullptr ? *dock : widget;
+  return widget.isVisible() && !seen.visibleRegion().isEmpty();
 }
 
 void whenSeen(const QWidget& content, QObject* context, const std::function<void(bool)>& report) {

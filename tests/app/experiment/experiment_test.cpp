@@ -300,17 +300,6 @@ TEST_F(Experiment, theFixedRatioCutsClearAirToo) {
   EXPECT_EQ((*view)->cutError(clear(RatioMode::adaptive)).changed, 0u);
 }
 
-TEST(WeatherRows, sayWhereBothSchemesAreOneSetting) {
-  const TuningParameters p = loadPreset("as-published")->parameters;
-  const auto isOne = [&p](WeatherStep step) {
-    return isOneSetting(weatherOf(p, step, RatioMode::fixed), weatherOf(p, step, RatioMode::adaptive));
-  };
-  EXPECT_TRUE(isOne(WeatherStep::rain_light)) << "both far planes lie at 20 km";
-  EXPECT_FALSE(isOne(WeatherStep::rain_medium));
-  EXPECT_FALSE(isOne(WeatherStep::clear)) << "one is cut, one is not";
-  EXPECT_TRUE(isOneSetting({}, {}));
-}
-
 TEST_F(Experiment, weatherUnderABudgetKeepsWhatFitsAndLowersWhatDoesNot) {
   const auto view = WeatherView::open(setup());
   ASSERT_TRUE(view) << toString(view.findings());
