@@ -29,7 +29,7 @@ const std::string kGood = (test::sourceDir() / "tests/data/presets/good/everythi
 TEST(PresetCommand, checksGoodAndBadFilesTogether) {
   const Ran good = preset("check default as-published as-printed " + kGood);
   EXPECT_EQ(good.exitCode, 0) << good.err;
-  EXPECT_THAT(good.err, HasSubstr("warning: " + kGood + ":17: future.list"));
+  EXPECT_THAT(good.err, HasSubstr("warning: " + kGood + ":16: future.list"));
   const Ran mixed = preset("check default " + bad("near-zero") + " " + bad("truncated"));
   EXPECT_EQ(mixed.exitCode, 1);
   EXPECT_THAT(mixed.out, HasSubstr("default: good\n"));
