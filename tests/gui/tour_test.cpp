@@ -49,7 +49,7 @@ class Tour : public Bench {
                           {"freeze-and-detach", 6, &Tour::freezeAndDetach},
                           {"head-sweep", 6, &Tour::headSweep},
                           {"heavy-rain", 5, &Tour::heavyRain},
-                          {"plots", 8, &Tour::plots},
+                          {"plots", 9, &Tour::plots},
                           {"compare-two-presets", 7, &Tour::compareTwoPresets},
                           {"measure-a-flight", 11, &Tour::measureAFlight},
                           {"switch-off-a-rule", 6, &Tour::switchOffARule},
@@ -231,6 +231,7 @@ class Tour : public Bench {
     EXPECT_NEAR(panel.plot().span(), 10, 1e-6);
     hand_->press(panel, "Pause");
     EXPECT_TRUE(panel.isPaused());
+    hand_->press(panel, "Details");
   }
   void compareTwoPresets() {
     workbench::SplitView& split = w().controllers().errors->splitView();
@@ -276,6 +277,8 @@ class Tour : public Bench {
   }
   void switchOffARule() {
     workspace("Tune");
+    // The details of the plots have squeezed the docks above, and a person resets the workspace from its menu.
+    w().workspaces().reset();
     front("policy");
     views::PolicyPanel& panel = *w().panels().policy;
     hand_->pressInMenu(panel, "Start from", "low-level");
