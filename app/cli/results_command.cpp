@@ -25,7 +25,7 @@ Result<harness::Results> readResults(const std::filesystem::path& folder) {
   return harness::parseResults(*text, file.string());
 }
 
-/// Puts the units of all runs side by side. Flights are told apart by their terrain too.
+/// Joins the units of all runs to one table. Flights of one name over two terrains count as two.
 void append(const harness::Results& run, harness::Results& all) {
   const auto named = [&run](harness::UnitName name) {
     name.flight += ", " + run.terrain;

@@ -75,7 +75,7 @@ struct WeatherDecision {
   double visibilityM = kUnlimited;  ///< distance from the eye, not depth along the view's axis
   double extinctionPerM = 0;        ///< -ln(contrast threshold) / visibilityM
   double layerTopM = kUnlimited;    ///< there is fog only below this height above mean sea level
-  /// What is farther from the eye can change no channel of any pixel by more than 1/255 (haze_layer.h). It is
+  /// Nothing farther from the eye changes any channel of a pixel by more than 1/255 (haze_layer.h). It is
   /// unlimited if something may be seen at any distance, and in AirModel::uniform, which does not use it.
   double safeFarM = kUnlimited;
   double nearFarRatio = 0;  ///< WeatherParameters::defaultNear / farM; 0 while nothing is cut
