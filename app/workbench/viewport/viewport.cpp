@@ -331,7 +331,15 @@ scene::BuiltAhead Viewport::buildAhead(std::span<const std::uint32_t> nodes, dou
 
 void Viewport::readDepthMap() {
   if (!depthMapWanted_) return;
-  if (sinceDepthMap_.isValid() && sinceDepthMap_.elapsed() < kDepthMapGapMs) return;
+  if (sinceDepthMap_.isValid() && sinceDepthMap_.elapsed() < kDepthMapGapMs) {
+    // The view may come to rest before the next reading is due: then this image would never be shown.
+    if (!std::exchange(depthMapDue_, true))
+      QTimer::singleShot(kDepthMapGapMs, this, [this] {
+        depthMapDue_ = false;
+        invalidate();
+      });
+    return;
+  }
   sinceDepthMap_.start();
   constexpr int kBearings = 720;
   emit horizonRead(renderer_->readHorizon(kBearings));

@@ -138,6 +138,7 @@ class Viewport : public GlWidget {
   QRectF pictureAt_;  ///< where the last image lies in the widget
   bool cameraEnabled_ = true, dirty_ = false, again_ = false, pointerWanted_ = false, picking_ = false;
   bool depthMapWanted_ = false;
+  bool depthMapDue_ = false;  ///< a repaint that reads the map is under way
   std::optional<QPointF> pickAt_;  ///< in the widget: where the next image is asked for its node
   QPointF lastMouse_;
   QString notice_;
