@@ -1,6 +1,7 @@
 #include <fstream>
 #include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -98,6 +99,35 @@ TEST(House, includesOnlyFromFoldersLowerDown) {
     }
   }
   EXPECT_GT(seen, 2000u) << "the test does not find the includes";
+}
+
+TEST(House, noFoldersIncludeEachOther) {
+  const std::regex include("^#include \"([^\"]+)\"");
+  std::map<std::string, std::set<std::string>> uses;
+  for (const fs::path& file : sources()) {
+    if (file.string().starts_with("tests/")) continue;
+    std::ifstream in(sourceDir() / file);
+    for (std::string line; std::getline(in, line);)
+      if (std::smatch match; std::regex_search(line, match, include))
+        if (const fs::path target = included(match[1]);
+            !target.empty() && target.parent_path() != file.parent_path())
+          uses[file.parent_path()].insert(target.parent_path());
+  }
+  EXPECT_GT(uses.size(), 50u) << "the test does not find the includes";
+  for (const auto& [folder, first] : uses) {
+    std::set<std::string> reached = first;
+    for (std::vector<std::string> next(first.begin(), first.end()); !next.empty();) {
+      const std::string from = next.back();
+      next.pop_back();
+      for (const std::string& to : uses[from])
+        if (reached.insert(to).second) next.push_back(to);
+    }
+    std::string through;
+    for (const std::string& to : first)
+      if (uses[to].contains(folder)) through += " " + to;
+    EXPECT_FALSE(reached.contains(folder))
+        << folder << " includes itself by way of other folders;" << through;
+  }
 }
 
 TEST(House, keepsFoldersAndFilesSmall) {

@@ -46,12 +46,12 @@ lead_to 1
 
 # The presets that take turns, each as a whole export.
 presets=(
-  "static_lod.terrain=patches"
-  "static_lod.terrain=levels weather.step=rain_heavy"
-  "static_lod.terrain=patches weather.step=snow_medium symbology.enabled=true"
-  "static_lod.terrain=levels culling.occlusion=horizon"
-  "static_lod.terrain=patches weather.step=snow_light culling.occlusion=depth_map"
-  "static_lod.terrain=patches culling.case=view_frustum"
+  "terrain.form=patches"
+  "terrain.form=tiles weather.step=rain_heavy"
+  "terrain.form=patches weather.step=snow_medium symbology.enabled=true"
+  "terrain.form=tiles culling.occlusion=horizon"
+  "terrain.form=patches weather.step=snow_light culling.occlusion=depth_map"
+  "terrain.form=patches culling.case=view_frustum"
 )
 for i in "${!presets[@]}"; do
   sets=()

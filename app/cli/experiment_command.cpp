@@ -49,8 +49,6 @@ void addExperiment(CLI::App& app, int& exitCode) {
   for (const Named& named : {
            Named{"culling", "No culling, view frustum and proposed at 2,000 to 8,000 ft (documents A, B)",
                  &experiment::runCulling},
-           Named{"culling-per-node", "One decision a frame, or one for each node (document A, Figure 2)",
-                 &experiment::runCullingPerNode},
            Named{"head-motion", "A sweep of 180 degrees in a second (document C)",
                  &experiment::runHeadMotion},
            Named{"head-motion-varying", "Turns and nods of varying speed (document C, Figures 9 and 10)",

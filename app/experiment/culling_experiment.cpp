@@ -45,7 +45,7 @@ FrameRequest requestAt(const Setup& setup, const ValidatedParameters& parameters
   FrameRequest request = *session.request(0, setup.widthPx, setup.heightPx);
   request.eye.height = place.ground.height + Feet{altitudeFt}.as<Metres>();
   // Documents A and B draw tiles, which all four cases must have in common.
-  request.staticLod.terrain = TerrainForm::levels;
+  request.terrain.form = TerrainForm::tiles;
   request.waitForPages = true;
   return request;
 }
@@ -102,7 +102,7 @@ Result<Report> runCulling(const Setup& setup) {
       if (a == 0) eyeFt += request.eye.height.in<Feet>() - kAltitudesFt[a];
       std::vector<std::uint8_t> unculled;
       for (std::size_t c = 0; c < kCases.size(); ++c) {
-        request.method = kCases[c].method;
+        request.cullingCase = kCases[c].method;
         request.occlusion = kCases[c].occlusion;
         FrameResult last;
         AltitudeSums& s = sums[a][c];

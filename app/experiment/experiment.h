@@ -53,7 +53,6 @@ Result<Report> runCulling(const Setup& setup);
 /// Document A's loop over nodes (Figure 2), in which each is decided by its distance from the eye, beside the
 /// one decision a frame that the program makes: over tiles, and over static trees where the database has
 /// them.
-Result<Report> runCullingPerNode(const Setup& setup);
 
 /// Document C: 180 degrees in one second at 200 images a second, as it was, with LOD scale and blur, and with
 /// restoration. It runs over the preset's form of the terrain, over tiled levels, and over static trees where

@@ -86,7 +86,7 @@ Result<Report> runHeadMotion(const Setup& setup) {
   for (const TerrainForm form : formsOf(setup)) {
     const std::string name = nameOf(form);
     Setup over = setup;
-    over.parameters.staticLod.terrain = form;
+    over.parameters.terrain.form = form;
     const auto runs = flyHead(**stage, over, sweep(), kept, "sweep over " + name);
     if (!runs) return runs.findings();
     const int from = addRows(report.measured, name, *runs);

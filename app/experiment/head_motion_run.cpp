@@ -176,9 +176,9 @@ Result<MotionRuns> flyHead(Stage& stage, const Setup& setup, const HeadProfile& 
 std::vector<TerrainForm> formsOf(const Setup& setup) {
   std::vector<TerrainForm> forms;
   for (const TerrainForm wanted :
-       {setup.parameters.staticLod.terrain, TerrainForm::levels, TerrainForm::static_trees}) {
+       {setup.parameters.terrain.form, TerrainForm::tiles, TerrainForm::static_trees}) {
     FrameRequest request;
-    request.staticLod.terrain = wanted;
+    request.terrain.form = wanted;
     const auto drawn = scene::formDrawn(request, setup.terrain.get());
     if (drawn && std::find(forms.begin(), forms.end(), *drawn) == forms.end()) forms.push_back(*drawn);
   }
@@ -186,7 +186,7 @@ std::vector<TerrainForm> formsOf(const Setup& setup) {
 }
 
 std::string nameOf(TerrainForm form) {
-  return std::string(findRow("static_lod.terrain")->choices[static_cast<std::size_t>(form)].name);
+  return std::string(findRow("terrain.form")->choices[static_cast<std::size_t>(form)].name);
 }
 
 std::vector<std::string> motionColumns() {

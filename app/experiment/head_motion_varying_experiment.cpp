@@ -99,7 +99,7 @@ Result<Report> runHeadMotionVarying(const Setup& setup) {
   for (const TerrainForm form : formsOf(setup)) {
     const std::string name = nameOf(form);
     Setup over = setup;
-    over.parameters.staticLod.terrain = form;
+    over.parameters.terrain.form = form;
     const auto runs = flyHead(
         **stage, over, profile, [](int) { return false; }, "varying motion over " + name);
     if (!runs) return runs.findings();

@@ -87,7 +87,7 @@ void addRow(Table& table, const Strain& strain, const std::string& mode, double 
   for (const HoldOutcome& o : run.outcomes) {
     if (o.triangles > 0) triangles.push_back(std::abs(o.predictedTriangles / o.triangles - 1));
     times.push_back(std::abs(o.predictedMs / o.ms - 1));
-    covered += std::abs(o.predictedMs - o.ms) <= o.bandMs;
+    covered += std::abs(o.predictedMs - o.ms) <= o.halfBandMs;
   }
   const auto orNone = [](const std::vector<double>& values, double value) {
     return values.empty() ? Cell() : Cell(value);

@@ -39,7 +39,7 @@ FrameResult Stage::drawAndWait(FrameRequest request) {
     height_ = request.view.heightPx;
     offscreen_->resize(width_, height_);
   }
-  request.waitForPicture = true;
+  request.waitForImage = true;
   return renderer_.draw(request, offscreen_->framebuffer());
 }
 

@@ -123,7 +123,7 @@ std::vector<Runner> Run::runnersOf(const Plan::NamedFlight& flight) const {
   for (const auto& preset : plan_.presets)
     for (const CullingCase method : plan_.cases) {
       TuningParameters parameters = *preset.parameters;
-      parameters.culling.method = method;
+      parameters.culling.cullingCase = method;
       const auto valid = validate(parameters);
       // The case is free of rules; a set that was valid stays so.
       if (!valid) continue;
@@ -301,9 +301,9 @@ Result<Results> Run::all() {
           " of a frame after the row before it, with its pages there; all presets and cases take turns "
           "frame by frame. Page is what the step from the row before would add."};
   for (std::string& note : notesOnFeedback()) results.notes.push_back(std::move(note));
-  const TerrainForm form = plan_.presets.front().parameters->staticLod.terrain;
+  const TerrainForm form = plan_.presets.front().parameters->terrain.form;
   for (const auto& preset : plan_.presets)
-    if (preset.parameters->staticLod.terrain != form && plan_.terrain->staticLod())
+    if (preset.parameters->terrain.form != form && plan_.terrain->staticLod())
       results.notes.push_back(preset.name + " draws another form of the terrain than " +
                               plan_.presets.front().name +
                               ": each is held against the finest levels of its own.");

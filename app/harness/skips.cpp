@@ -29,7 +29,7 @@ FrameRequest without(const FrameRequest& request) {
 
 FrameRequest inCase(const FrameRequest& request, CullingCase method) {
   FrameRequest changed = request;
-  changed.method = method;
+  changed.cullingCase = method;
   return changed;
 }
 
@@ -53,7 +53,7 @@ const std::vector<Skip>& skips() {
   static const std::vector<Skip> kSkips{
       {"tiles outside the frustum",
        [](const FrameRequest& r, const FrameResult&, const FrameResult& after) {
-         return r.method != CullingCase::none && after.visible.outsideFrustum > 0;
+         return r.cullingCase != CullingCase::none && after.visible.outsideFrustum > 0;
        },
        [](const FrameRequest& r) { return inCase(r, CullingCase::none); },
        [](const FrameRequest& r) { return inCase(r, CullingCase::view_frustum); }},
@@ -69,7 +69,7 @@ const std::vector<Skip>& skips() {
        without<&Skips::beyondVisibility>, itself},
       {"occlusion test in scheme frustum",
        [](const FrameRequest& r, const FrameResult&, const FrameResult& after) {
-         return r.method == CullingCase::proposed && !r.levers.drawn.occlusion &&
+         return r.cullingCase == CullingCase::proposed && !r.levers.drawn.occlusion &&
                 !after.visible.tiles.empty();
        },
        without<&Skips::schemeFrustum>, itself},

@@ -68,7 +68,7 @@ class Loop {
   bool enough() const { return run_.options.frames > 0 && summary_.frames >= run_.options.frames; }
 
   bool viewerIsDue(double now) const {
-    return run_.surface.hasViewer() && now - lastFrame_ >= kViewerPeriodS && run_.session.needsPicture(now);
+    return run_.surface.hasViewer() && now - lastFrame_ >= kViewerPeriodS && run_.session.needsImage(now);
   }
 
   void sleep() {

@@ -23,8 +23,8 @@ constexpr double kJumpM = 60;
 /// Frames for which a validity region holds beyond those in which the next horizon is built. More of them
 /// would be idle frames, and the others would have to do more.
 constexpr double kSpareFrames = 1;
-/// Errors are along the earth's verticals, which lean from the frame's z. Where Frame::takesRoom is true they
-/// lean so little beside the slopes that a height changes by at most half as much again.
+/// Errors are along the earth's verticals, which lean from the frame's z. Where Frame::replacementsStayNear
+/// is true they lean so little beside the slopes that a height changes by at most half as much again.
 constexpr float kLean = 1.5f;
 /// Margin on the LOD rule, because a tile close to its limit may be about to change.
 constexpr double kMargin = 0.02;
@@ -53,7 +53,7 @@ ValidityRegion MovingHorizon::regionAhead(Vec3 eye, double firstFrame, double la
 }
 
 std::span<const std::uint8_t> MovingHorizon::verdicts(const Frame& frame) {
-  if (!isCarried_) return builds_[standing_].horizon.hidden();
+  if (!isCarried_) return builds_[active_].horizon.hidden();
   ++carried_;
   return std::span(verdicts_).first(frame.tiles.size());
 }
@@ -77,9 +77,9 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
   moving_ = true;
 
   if (!frame.incremental || !frame.sameHorizon) {
-    Build& build = builds_[standing_];
+    Build& build = builds_[active_];
     const ValidityRegion region{frame.eye, frame.eye, 0};
-    builds_[1 - standing_].there = false;
+    builds_[1 - active_].there = false;
     isCarried_ = false;
     const ValidityRegion& last = build.horizon.region();
     if (frame.sameHorizon && build.there && build.cutNumber == frame.cut && build.rule == frame.rule &&
@@ -93,11 +93,11 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
   }
 
   // The newer horizon is used as soon as it is valid.
-  Build& coming = builds_[1 - standing_];
+  Build& coming = builds_[1 - active_];
   if (coming.there && coming.horizon.isDone() && holds(coming, frame, tree)) {
-    builds_[standing_].there = false;
-    standing_ = 1 - standing_;
-  } else if (!holds(builds_[standing_], frame, tree)) {
+    builds_[active_].there = false;
+    active_ = 1 - active_;
+  } else if (!holds(builds_[active_], frame, tree)) {
     if (coming.there && !coming.horizon.isDone() && coming.horizon.region().holds(frame.eye))
       coming.horizon.step(std::numeric_limits<std::size_t>::max() / 2);
     else
@@ -108,8 +108,8 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
       ++fromScratch_;
       isCarried_ = false;
     }
-    builds_[standing_].there = false;
-    standing_ = 1 - standing_;
+    builds_[active_].there = false;
+    active_ = 1 - active_;
   } else {
     prepareNext(frame, tree, fill);
   }
@@ -117,15 +117,15 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
 }
 
 void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, const Fill& fill) {
-  const Build& standing = builds_[standing_];
-  Build& coming = builds_[1 - standing_];
+  const Build& active = builds_[active_];
+  Build& coming = builds_[1 - active_];
   if (coming.there && (coming.rule != frame.rule || coming.settings != frame.settings)) coming.there = false;
   if (coming.there) {
     if (coming.horizon.isDone()) {
       // If the eye slowed down, turned or has gone past, it never reaches the region.
       if (!coming.horizon.region().holds(regionAhead(frame.eye, kFrames, kFrames).to)) coming.there = false;
     } else {
-      coming.horizon.step(standing.horizon.work() * 11 / (10 * kFrames) + 16);
+      coming.horizon.step(active.horizon.work() * 11 / (10 * kFrames) + 16);
     }
     return;
   }
@@ -133,10 +133,10 @@ void MovingHorizon::prepareNext(const Frame& frame, const SurfaceTree& tree, con
     return length(region.to - region.from) + 2 * region.radius;
   };
   const Vec3 then = regionAhead(frame.eye, kFrames + 1, kFrames + 1).to;
-  if (!standing.horizon.region().holds(then))
+  if (!active.horizon.region().holds(then))
     begin(coming, regionAhead(frame.eye, kFrames - 1, 2 * kFrames + kSpareFrames), frame, tree, fill);
   else if (const ValidityRegion here = regionAhead(frame.eye, 0, 2 * kFrames);
-           extent(standing.horizon.region()) > 8 * extent(here))
+           extent(active.horizon.region()) > 8 * extent(here))
     begin(coming, here, frame, tree, fill);  // it has slowed down, and a smaller region proves more
 }
 
@@ -251,7 +251,7 @@ void MovingHorizon::widenBounds(Build& build, const Frame& frame, const SurfaceT
       tile.mayOcclude = tile.mayOcclude && mayOcclude(parent);
     }
     const float margin = kLean * (tree.surfaceError(node, tree.variantOf(build.cut[i])) + other);
-    if (!std::isfinite(margin) || (frame.takesRoom && !frame.takesRoom(node))) {
+    if (!std::isfinite(margin) || (frame.replacementsStayNear && !frame.replacementsStayNear(node))) {
       tile = {};  // hides nothing and is never hidden, so nothing is claimed about its replacement
       continue;
     }

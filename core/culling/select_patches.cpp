@@ -50,10 +50,10 @@ class Selection {
     // The terrain is another one, so the lists of the last call say nothing.
     if (cut_.need.size() != index_.diamonds.size() || cut_.wantOf.size() != index_.pages.size()) {
       cut_.need.assign(index_.diamonds.size(), 0);
-      cut_.lack.assign(index_.diamonds.size(), 0);
+      cut_.missing.assign(index_.diamonds.size(), 0);
       cut_.wantOf.assign(index_.pages.size(), 0);
     } else {
-      for (const std::uint32_t diamond : cut_.splitList) cut_.need[diamond] = 0, cut_.lack[diamond] = 0;
+      for (const std::uint32_t diamond : cut_.splitList) cut_.need[diamond] = 0, cut_.missing[diamond] = 0;
       for (const PageWant& want : cut_.wants) cut_.wantOf[want.page] = 0;
     }
     cut_.splitList.clear();
@@ -93,7 +93,7 @@ class Selection {
       const std::size_t before = cut_.stack.size();
       forEachChild(diamond, [&](std::uint32_t child) {
         cut_.stack.push_back(child);
-        if (!isResident(index_.page[child]) && !isLost(index_.page[child])) cut_.lack[diamond] = kOwn;
+        if (!isResident(index_.page[child]) && !isLost(index_.page[child])) cut_.missing[diamond] = kOwn;
       });
       if (cut_.stack.size() == before) return;
       cut_.splitList.push_back(diamond);
@@ -116,12 +116,12 @@ class Selection {
   bool isLost(std::uint32_t page) const { return index_.pages[page].pair == 0 && !isResident(page); }
 
   bool isHeldBack(std::uint32_t diamond) {
-    std::uint8_t& lack = cut_.lack[diamond];
-    if (lack & kKnown) return lack & kAny;
-    bool any = lack & kOwn;
+    std::uint8_t& missing = cut_.missing[diamond];
+    if (missing & kKnown) return missing & kAny;
+    bool any = missing & kOwn;
     for (const std::uint32_t parent : index_.diamonds[diamond].parents)
       any = any || (parent != kNone && isHeldBack(parent));
-    lack = static_cast<std::uint8_t>(lack | kKnown | (any ? kAny : 0));
+    missing = static_cast<std::uint8_t>(missing | kKnown | (any ? kAny : 0));
     return any;
   }
 
@@ -149,8 +149,8 @@ class Selection {
             if (index_.children[patch][i] != kNone) cut_.stack.push_back(index_.children[patch][i]);
           continue;
         }
-        if (!(cut_.lack[diamond] & kCounted)) ++cut_.heldBack;
-        cut_.lack[diamond] |= kCounted;
+        if (!(cut_.missing[diamond] & kCounted)) ++cut_.heldBack;
+        cut_.missing[diamond] |= kCounted;
       }
       cut_.cut.tiles.push_back({.node = patch, .variant = variantOf(patch)});
     }

@@ -10,9 +10,9 @@ FadingPrecipitation fallsNow(const FrameRequest& request) {
 
 std::optional<TerrainForm> formDrawn(const FrameRequest& request, const FormsOfTerrain& forms) {
   if (asksForTrees(request) && forms.trees) return TerrainForm::static_trees;
-  const bool patches = request.staticLod.terrain == TerrainForm::patches || !forms.tiles;
+  const bool patches = request.terrain.form == TerrainForm::patches || !forms.tiles;
   if (forms.patches && patches) return TerrainForm::patches;
-  if (forms.tiles) return TerrainForm::levels;
+  if (forms.tiles) return TerrainForm::tiles;
   return {};
 }
 

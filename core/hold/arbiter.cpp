@@ -199,10 +199,10 @@ bool meshesReady(const HoldGiven& given, std::uint8_t from, std::uint8_t to, dou
 /// Returns what a prediction may reach: the budget without its margin, and less if the model is so uncertain
 /// that an image which is late by hold.caution bands would take more than 1.1 of the budget. Of a normal
 /// distribution one image in a hundred is later than 1.41 of its 90 % bands (2.326 / 1.645).
-double limitOf(double budgetMs, double bandMs, const HoldParameters& p) {
+double limitOf(double budgetMs, double halfBandMs, const HoldParameters& p) {
   constexpr double kOver = 1.1, kLeast = 0.75;
   const double most = budgetMs * (1 - p.margin.value());
-  const double sure = kOver * budgetMs - p.caution.value() * bandMs;
+  const double sure = kOver * budgetMs - p.caution.value() * halfBandMs;
   return std::min(most, std::isfinite(sure) ? std::max(sure, kLeast * budgetMs) : most);
 }
 
@@ -252,8 +252,8 @@ HoldDecision arbitrate(const HoldGiven& given, const HoldParameters& p, HoldMemo
     memory = {.steps = {}, .timeS = memory.timeS};
     return d;
   }
-  d.bandMs = given.cost.bandMs;
-  d.limitMs = limitOf(given.budgetMs, d.bandMs, p);
+  d.halfBandMs = given.cost.halfBandMs;
+  d.limitMs = limitOf(given.budgetMs, d.halfBandMs, p);
 
   const Choice choice = choiceOf(given, p);
   const HoldSteps before = within(choice, memory.steps);

@@ -109,7 +109,8 @@ void ClockModel::observe(const FrameLoad& load, const ClockTimes& times) {
     // A running quantile: it rises nine times as fast as it falls, and rests where one image in ten is
     // outside.
     constexpr double kStep = 0.02;
-    band_ = std::clamp(band_ + kStep * (error > bandMs(load) ? 0.9 : -0.1) * band_, kLeastBand, kMostBand);
+    band_ =
+        std::clamp(band_ + kStep * (error > halfBandMs(load) ? 0.9 : -0.1) * band_, kLeastBand, kMostBand);
   }
   ground_.observe(groundOf(load), ground);
   if (load.particles >= kFewestParticles) weather_.observe(weatherOf(load), weather);
@@ -137,7 +138,7 @@ ClockCoefficients ClockModel::coefficients() const {
           other_};
 }
 
-double ClockModel::bandMs(const FrameLoad& load) const {
+double ClockModel::halfBandMs(const FrameLoad& load) const {
   double deviation = ground_.deviation(groundOf(load));
   if (load.particles > 0) deviation = std::hypot(deviation, weather_.deviation(weatherOf(load)));
   if (load.blurs) deviation = std::hypot(deviation, blur_.deviation(blurOf(load)));
@@ -183,7 +184,7 @@ CostCoefficients CostModel::coefficients(const FrameLoad& load) const {
       c.second = processor_.coefficients(), longer = &gpu_;
   }
   static_cast<ClockCoefficients&>(c) = longer->coefficients();
-  c.bandMs = longer->bandMs(load);
+  c.halfBandMs = longer->halfBandMs(load);
   c.offMs = longer->offMs();
   c.known = processor_.known() && (loads_.empty() || gpu_.known());
   return c;

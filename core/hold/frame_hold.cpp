@@ -182,7 +182,7 @@ void FrameHold::finished(const FrameResult& result, const FrameCost& cost) {
     then.triangles = o.predictedTriangles;
     then.groundMpx = p.groundMpx * held_.renderScale * held_.renderScale;
     o.predictedMs = predict(p.cost, then).total();
-    o.bandMs = p.cost.bandMs;
+    o.halfBandMs = p.cost.halfBandMs;
     if (p.known) outcome_ = o;
   }
   if (counted > 0 && drawn > 0) {

@@ -172,7 +172,7 @@ void forEachHoldColumn(Decision& d, const Visit& visit) {
   visit("hold_blur_ms", Cell::hold, d.heldMs.blur);
   visit("hold_other_ms", Cell::hold, d.heldMs.other);
   visit("hold_limit_ms", Cell::hold, d.limitMs);
-  visit("hold_band_ms", Cell::hold, d.bandMs);
+  visit("hold_band_ms", Cell::hold, d.halfBandMs);
 }
 
 /// Visits the eye of an image that is decided between two states.

@@ -37,7 +37,8 @@ struct WithdrawnChoice {
   std::string_view key, value, replacement;
 };
 constexpr WithdrawnChoice kWithdrawnChoices[] = {{"culling.occlusion", "read_back", "depth_map"},
-                                                 {"culling.occlusion", "horizon_and_map", "auto"}};
+                                                 {"culling.occlusion", "horizon_and_map", "auto"},
+                                                 {"terrain.form", "levels", "tiles"}};
 
 void replaceWithdrawn(std::vector<RawParameter>& parameters, FindingList& notes) {
   for (RawParameter& p : parameters)
@@ -48,6 +49,18 @@ void replaceWithdrawn(std::vector<RawParameter>& parameters, FindingList& notes)
                    std::string(choice.value) + ", which was withdrawn; " + std::string(choice.replacement) +
                        " is used"});
       }
+}
+
+/// A key that was renamed while the version stayed: files of this version have either.
+struct FormerKey {
+  std::string_view former, now;
+};
+constexpr FormerKey kFormerKeys[] = {{"static_lod.terrain", "terrain.form"}};
+
+void renameFormer(std::vector<RawParameter>& parameters, FindingList& notes) {
+  for (RawParameter& p : parameters)
+    for (const FormerKey& key : kFormerKeys)
+      if (p.key == key.former) rename(p, key.now, notes);
 }
 
 /// A parameter that no version reads any more: it is dropped, and a note says so.
@@ -94,6 +107,7 @@ void migrate(int fromVersion, const TuningParameters& base, std::vector<RawParam
              FindingList& notes) {
   for (int version = fromVersion; version < kPresetVersion; ++version)
     kMigrations[version - 1](base, parameters, notes);
+  renameFormer(parameters, notes);
   replaceWithdrawn(parameters, notes);
   dropWithdrawn(parameters, notes);
   replaceFormerRules(base, parameters, notes);

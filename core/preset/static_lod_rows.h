@@ -6,15 +6,6 @@
 namespace trimtab::table {
 
 inline constexpr std::array kStaticLodRows{
-    row<&TuningParameters::staticLod, &StaticLodParameters::terrain>(
-        {.key = "static_lod.terrain",
-         .label = "Terrain is drawn from",
-         .help =
-             "Regular tiles; patches of triangles with a guaranteed error, read from disk as they are "
-             "needed; "
-             "or the static trees of document E. Only scenery has trees, and only a terrain of moderate size "
-             "has tiles: the patches serve where what is chosen here is not there.",
-         .source = "E"}),
     row<&TuningParameters::staticLod, &StaticLodParameters::error>(
         {.key = "static_lod.error",
          .label = "Error of a node",

@@ -6,7 +6,7 @@
 namespace trimtab::table {
 
 inline constexpr std::array kViewRows{
-    row<&TuningParameters::culling, &CullingParameters::method>(
+    row<&TuningParameters::culling, &CullingParameters::cullingCase>(
         {.key = "culling.case",
          .label = "Culling",
          .help = "Which of the published cases runs. All draw the same picture; they differ in what they "

@@ -13,14 +13,14 @@
 #include "core/scene/passes/blur_pass.h"
 #include "core/scene/passes/lines.h"
 #include "core/scene/passes/node_pass.h"
+#include "core/scene/passes/precipitation_effect.h"
 #include "core/scene/passes/precipitation_pass.h"
 #include "core/scene/passes/scale_up_pass.h"
+#include "core/scene/passes/scene_programs.h"
 #include "core/scene/passes/symbology_pass.h"
-#include "core/scene/passes/weather_precipitation.h"
 #include "core/scene/terrain/patches/patch_drawer.h"
 #include "core/scene/terrain/static_trees/tree_drawer.h"
 #include "core/scene/terrain/tiles/tile_drawer.h"
-#include "scene_graph.h"
 #include "trimtab/scene/gl_report.h"
 #include "trimtab/scene/planted_defects.h"
 #include "trimtab/units/sphere.h"
@@ -54,45 +54,30 @@ struct Renderer::Impl {
 
   /// Holds what lives in the context, but for the terrain.
   struct Gl {
-    Gl(ScenePasses passes, bool software) : blur(software), scaleUp(software), graph(std::move(passes)) {}
+    explicit Gl(bool software) : blur(software), scaleUp(software) {}
     FrameBuffer frame;
     FrameBuffer small;  ///< the scene before it is scaled up, if the request asks for that
     NodeTarget nodes;
+    ScenePrograms programs;
     LineBuffer lineBuffer;
     PrecipitationPass precipitation;
+    std::optional<PrecipitationEffect> effect;  ///< made when it first falls
     BlurPass blur;
     ScaleUpPass scaleUp;
     SymbologyPass symbology;
     StageClock clock;
-    SceneGraph graph;
     const ViewportLimits viewports = viewportLimitsOfContext();
   };
   std::unique_ptr<Gl> gl;
 
-  ScenePasses passes() {
-    return {.begin = [this](unsigned) { gl->clock.lap(&FrameCost::cull); },
-            .occluders = [this](unsigned) { tiles.drawOccluders(); },
-            .reduce = [this](unsigned program) { tiles.reduce(program); },
-            .test = [this](unsigned) { removeHidden(); },
-            .surface = [this](unsigned program) { terrain->draw(program); },
-            .wire = [this](unsigned program) { terrain->drawWire(program); },
-            .numbers = [this](unsigned program) { terrain->drawNumbered(program); },
-            .treePicture = [this](unsigned program) { trees.drawPicture(program); },
-            .lines = [this](unsigned) { gl->lineBuffer.draw(lines); },
-            .beforeWeather = [this](unsigned) { gl->clock.beginPart(&FrameCost::weather); },
-            .afterWeather = [this](unsigned) { gl->clock.endPart(&FrameCost::weather); }};
-  }
-
   std::array<TerrainDrawer*, 3> forms() { return {&tiles, &patches, &trees}; }
   TerrainDrawer* drawerOf(TerrainForm form);
-  void removeHidden();
   SceneView viewOf(const FrameRequest& r) const;
   FrameResult prepare(const FrameRequest& r, SceneView& view);
   const FrameBuffer& scene() const { return lastScene == lastView ? gl->frame : gl->small; }
-  FrameCounters drawPrecipitation(const SceneView& view);
-  FrameCounters blurScene(const FrameRequest& r);
-  void scaleUp();
-  FrameCounters drawSymbols(const FrameRequest& r);
+  /// Draws the form of the terrain in the guard band, with its own shaders.
+  void drawForm(const SceneView& view, SceneShaders tilesShaders, bool wire,
+                void (TerrainDrawer::*drawNodes)(unsigned program));
   FrameResult draw(const FrameRequest& r, unsigned fbo);
   static void leaveContext(unsigned fbo);
   std::vector<std::uint32_t> readNodes(bool unculled);
@@ -102,10 +87,11 @@ TerrainDrawer* Renderer::Impl::drawerOf(TerrainForm form) {
   return forms()[static_cast<std::size_t>(form)];
 }
 
-void Renderer::Impl::removeHidden() {
-  tiles.removeHidden();
-  glBindFramebuffer(GL_FRAMEBUFFER, scene().id());
-  gl->clock.lap(&FrameCost::occlusion);
+void Renderer::Impl::drawForm(const SceneView& view, SceneShaders tilesShaders, bool wire,
+                              void (TerrainDrawer::*drawNodes)(unsigned program)) {
+  const WideViewport wide(view.shape, view.guardBand);
+  const int form = static_cast<int>(*view.form);
+  (terrain->*drawNodes)(gl->programs.use(SceneShaders{static_cast<int>(tilesShaders) + form}, wire));
 }
 
 /// Returns the part of a frame's view that follows from the request alone.
@@ -159,51 +145,116 @@ FrameResult Renderer::Impl::prepare(const FrameRequest& r, SceneView& view) {
   return result;
 }
 
-/// Draws rain and snow of the bounded form; the published effect is a part of the scene.
-FrameCounters Renderer::Impl::drawPrecipitation(const SceneView& view) {
-  FrameCounters done;
-  if (!view.precipitation || view.precipitation->form != PrecipitationForm::bounded) return done;
-  gl->clock.beginPart(&FrameCost::weather);
-  done.particlesDrawn += gl->precipitation.draw(*view.precipitation, view);
-  gl->clock.endPart(&FrameCost::weather);
-  return done;
+namespace {
+
+/// What passes read of the frame that is being drawn, and the counts that they add to.
+struct DrawnFrame {
+  Renderer::Impl& renderer;
+  const FrameRequest& request;  ///< of the image, which may be larger than the scene
+  const SceneView& view;
+  FrameCounters& done;
+};
+
+/// Into what a pass draws: maps of its own, the scene, or the image, which is the scene scaled up.
+enum class PassTarget { own, scene, image };
+
+struct FramePass {
+  const char* name;
+  PassTarget target;  ///< it is bound before the pass
+  CostField part;     ///< of the frame's cost, which gets its time; null if it belongs to no part
+  bool (*runs)(const DrawnFrame&);
+  void (*draw)(const DrawnFrame&);
+};
+
+bool falls(const DrawnFrame& f, PrecipitationForm form) {
+  return f.view.precipitation && f.view.precipitation->form == form;
+}
+double blurOf(const DrawnFrame& f) {
+  return f.request.levers.drawn.blurStrength;
 }
 
-/// Blurs the scene, before it is scaled up, so that blur and scene cost the same number of pixels.
-FrameCounters Renderer::Impl::blurScene(const FrameRequest& r) {
-  FrameCounters done;
-  const double strength = r.levers.drawn.blurStrength;
-  if (strength > 0 || !r.skips.blurAtRest) {
-    gl->clock.beginPart(&FrameCost::blur);
-    if (!(strength > 0)) gl->blur.rest();
-    gl->blur.apply(scene(), strength, r.time);
-    gl->clock.endPart(&FrameCost::blur);
-    ++done.blurPasses;
-  }
-  if (!(strength > 0)) gl->blur.rest();
-  return done;
-}
-
-/// Fills the image with the scene. Between pixels its colours are interpolated.
-void Renderer::Impl::scaleUp() {
-  if (&scene() == &gl->frame) return;
-  gl->frame.resize(lastView.widthPx, lastView.heightPx);
-  gl->scaleUp.draw(gl->small, gl->frame);
-  glBindFramebuffer(GL_FRAMEBUFFER, gl->frame.id());
-}
-
-/// The symbols are drawn last, at the image's size, so that they stay sharp.
-FrameCounters Renderer::Impl::drawSymbols(const FrameRequest& r) {
-  FrameCounters done;
-  if (!r.symbology || !r.symbology->setup.general.enabled) return done;
-  gl->clock.beginPart(&FrameCost::symbology);
-  const bool redrawn = gl->symbology.draw(*r.symbology, r.view, !r.skips.sameSymbols);
-  done.symbologyRedraws += redrawn;
-  if (redrawn) done.hostSymbolsLeftOut += gl->symbology.hostSymbolsLeftOut();
-  gl->clock.endPart(&FrameCost::symbology);
-  ++done.symbologyDraws;
-  return done;
-}
+/// A frame, pass by pass, in order.
+constexpr FramePass kPasses[] = {
+    // The published depth map: drawn, reduced to a pyramid, and read back for what it hides.
+    {"occluders", PassTarget::own, nullptr, [](const DrawnFrame& f) { return f.view.depth.has_value(); },
+     [](const DrawnFrame& f) {
+       f.renderer.gl->programs.use(SceneShaders::occluders);
+       f.renderer.tiles.drawOccluders();
+     }},
+    {"pyramid", PassTarget::own, nullptr, [](const DrawnFrame& f) { return f.view.depth.has_value(); },
+     [](const DrawnFrame& f) {
+       f.renderer.tiles.reduce(f.renderer.gl->programs.use(SceneShaders::depth_reduce));
+     }},
+    {"test", PassTarget::own, nullptr, [](const DrawnFrame& f) { return f.view.depth.has_value(); },
+     [](const DrawnFrame& f) {
+       f.renderer.gl->programs.use(SceneShaders::occlusion_test);
+       f.renderer.tiles.removeHidden();
+       f.renderer.gl->clock.lap(&FrameCost::occlusion);
+     }},
+    {"clear", PassTarget::scene, nullptr, [](const DrawnFrame&) { return true; },
+     [](const DrawnFrame& f) { f.renderer.gl->programs.clear(true); }},
+    {"surface", PassTarget::scene, nullptr,
+     [](const DrawnFrame& f) { return f.view.form && !f.view.treePicture; },
+     [](const DrawnFrame& f) {
+       f.renderer.drawForm(f.view, SceneShaders::tiles, false, &TerrainDrawer::draw);
+     }},
+    {"tree picture", PassTarget::scene, nullptr, [](const DrawnFrame& f) { return f.view.treePicture; },
+     [](const DrawnFrame& f) {
+       f.renderer.trees.drawPicture(f.renderer.gl->programs.use(SceneShaders::tree_picture));
+     }},
+    {"wire", PassTarget::scene, nullptr,
+     [](const DrawnFrame& f) { return f.view.form && !f.view.treePicture && f.view.wireframe; },
+     [](const DrawnFrame& f) {
+       f.renderer.drawForm(f.view, SceneShaders::tiles, true, &TerrainDrawer::drawWire);
+     }},
+    {"lines", PassTarget::scene, nullptr, [](const DrawnFrame& f) { return f.view.lines; },
+     [](const DrawnFrame& f) {
+       f.renderer.gl->programs.use(SceneShaders::lines);
+       f.renderer.gl->lineBuffer.draw(f.renderer.lines);
+     }},
+    {"sky", PassTarget::scene, nullptr, [](const DrawnFrame& f) { return f.view.sky; },
+     [](const DrawnFrame& f) {
+       f.renderer.gl->programs.use(SceneShaders::sky);
+       glDrawArrays(GL_TRIANGLES, 0, 3);
+     }},
+    {"published precipitation", PassTarget::scene, &FrameCost::weather,
+     [](const DrawnFrame& f) { return falls(f, PrecipitationForm::effect); },
+     [](const DrawnFrame& f) {
+       auto& effect = f.renderer.gl->effect;
+       if (!effect) effect.emplace();
+       effect->draw(*f.view.precipitation, f.view, f.renderer.scene().id());
+     }},
+    {"bounded precipitation", PassTarget::scene, &FrameCost::weather,
+     [](const DrawnFrame& f) { return falls(f, PrecipitationForm::bounded); },
+     [](const DrawnFrame& f) {
+       f.done.particlesDrawn += f.renderer.gl->precipitation.draw(*f.view.precipitation, f.view);
+     }},
+    // Before the scene is scaled up, so that blur and scene cost the same number of pixels.
+    {"blur", PassTarget::scene, &FrameCost::blur,
+     [](const DrawnFrame& f) { return blurOf(f) > 0 || !f.request.skips.blurAtRest; },
+     [](const DrawnFrame& f) {
+       if (!(blurOf(f) > 0)) f.renderer.gl->blur.rest();
+       f.renderer.gl->blur.apply(f.renderer.scene(), blurOf(f), f.request.time);
+       ++f.done.blurPasses;
+     }},
+    {"scale up", PassTarget::own, nullptr,
+     [](const DrawnFrame& f) { return &f.renderer.scene() != &f.renderer.gl->frame; },
+     [](const DrawnFrame& f) {
+       f.renderer.gl->frame.resize(f.request.view.widthPx, f.request.view.heightPx);
+       f.renderer.gl->scaleUp.draw(f.renderer.gl->small, f.renderer.gl->frame);
+     }},
+    // Last, at the image's size, so that symbols stay sharp.
+    {"symbols", PassTarget::image, &FrameCost::symbology,
+     [](const DrawnFrame& f) { return f.request.symbology && f.request.symbology->setup.general.enabled; },
+     [](const DrawnFrame& f) {
+       SymbologyPass& symbology = f.renderer.gl->symbology;
+       const bool redrawn =
+           symbology.draw(*f.request.symbology, f.request.view, !f.request.skips.sameSymbols);
+       f.done.symbologyRedraws += redrawn;
+       if (redrawn) f.done.hostSymbolsLeftOut += symbology.hostSymbolsLeftOut();
+       ++f.done.symbologyDraws;
+     }},
+};
 
 /// Returns the request for a scene of `size`, whose errors still count the image's pixels.
 FrameRequest atSize(FrameRequest request, const ViewShape& size) {
@@ -212,8 +263,10 @@ FrameRequest atSize(FrameRequest request, const ViewShape& size) {
   return request;
 }
 
+}  // namespace
+
 FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
-  gl->clock.start(report.software, r.separateStages, r.waitForPicture);
+  gl->clock.start(report.software, r.separateStages, r.waitForImage);
   lastView = r.view;
   lastScene = scaledShape(r.view, r.levers.drawn.renderScale);
   std::optional<FrameRequest> smaller;
@@ -222,15 +275,21 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   SceneView view = viewOf(drawn);
   FrameResult result = prepare(drawn, view);
 
-  FrameBuffer& target = smaller ? gl->small : gl->frame;
-  target.resize(lastScene.widthPx, lastScene.heightPx);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
-  gl->graph.frame(view, target.id());
-  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
-  result.counters += drawPrecipitation(view);
-  result.counters += blurScene(r);
-  scaleUp();
-  result.counters += drawSymbols(r);
+  (smaller ? gl->small : gl->frame).resize(lastScene.widthPx, lastScene.heightPx);
+  gl->programs.begin(view);
+  gl->clock.lap(&FrameCost::cull);
+  const DrawnFrame frame{*this, r, view, result.counters};
+  for (const FramePass& pass : kPasses) {
+    if (!pass.runs(frame)) continue;
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, pass.name);  // for debuggers of GL
+    if (pass.part) gl->clock.beginPart(pass.part);
+    if (pass.target != PassTarget::own)
+      glBindFramebuffer(GL_FRAMEBUFFER, pass.target == PassTarget::image ? gl->frame.id() : scene().id());
+    pass.draw(frame);
+    if (pass.part) gl->clock.endPart(pass.part);
+    glPopDebugGroup();
+  }
+  if (!(blurOf(frame) > 0)) gl->blur.rest();
 
   glBindFramebuffer(GL_READ_FRAMEBUFFER, gl->frame.id());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, fbo);
@@ -264,17 +323,16 @@ void Renderer::Impl::leaveContext(unsigned fbo) {
 
 std::vector<std::uint32_t> Renderer::Impl::readNodes(bool unculled) {
   SceneView view = *shown;
-  view.nodes = true;
   view.shape = lastView;
   view.guardBand = guardBandOf(lastView, gl->viewports);
   view.depth.reset();
-  view.precipitation.reset();
-  view.sky = view.wireframe = view.lines = view.treePicture = false;
   if (terrain) counters.tilesBuilt += terrain->prepareNumbers(unculled);
   GLint before = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
   gl->nodes.begin(lastView.widthPx, lastView.heightPx);
-  gl->graph.frame(view, gl->nodes.id());
+  gl->programs.begin(view);
+  gl->programs.clear(false);
+  if (view.form) drawForm(view, SceneShaders::tile_numbers, false, &TerrainDrawer::drawNumbered);
   std::vector<std::uint32_t> nodes = gl->nodes.read();
   leaveContext(static_cast<GLuint>(before));
   return nodes;
@@ -287,7 +345,7 @@ GlReport Renderer::initialize() {
   release();
   impl_->report = reportContext();
   if (impl_->report.usable) {
-    impl_->gl = std::make_unique<Impl::Gl>(impl_->passes(), impl_->report.software);
+    impl_->gl = std::make_unique<Impl::Gl>(impl_->report.software);
     for (TerrainDrawer* form : impl_->forms()) form->initialize();
   }
   return impl_->report;
@@ -315,7 +373,7 @@ FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {
   if (across > 0 && upward > 0 && std::isfinite(across + upward)) return impl_->draw(request, fbo);
   // A view that is none, turned round for one, shows whatever GL makes of it: nothing is left out.
   FrameRequest whole = request;
-  whole.method = CullingCase::none;
+  whole.cullingCase = CullingCase::none;
   return impl_->draw(whole, fbo);
 }
 

@@ -26,7 +26,7 @@ bool Session::unsettled() const {
   return memory_.motion.blurStack.frames > 0 || (restores && memory_.motion.level > 0);
 }
 
-bool Session::needsPicture(double now) const {
+bool Session::needsImage(double now) const {
   if (!current_) return false;
   if (dirty_ || unsettled() || !drawnEye_) return true;
   const bool moving = linked_ || head_.source() == HeadInput::Source::pointer;
@@ -85,7 +85,7 @@ std::optional<FrameRequest> Session::request(double now, int windowWidthPx, int 
     blur.remainingMs -= std::max(now - *blurPicturedAt_, 0.0) * 1e3;
     if (!(blur.remainingMs > 0)) blur = {};
   }
-  request.method = parameters_->culling.method;
+  request.cullingCase = parameters_->culling.cullingCase;
   request.occlusion = parameters_->culling.occlusion;
   request.backFaces = parameters_->culling.backFaces;
   request.spreadFrom = parameters_->lod.spreadFrom;

@@ -24,7 +24,7 @@ class IgTrust : public ::testing::Test {
   }
   void drawPatches() const {
     TuningParameters parameters;
-    parameters.staticLod.terrain = TerrainForm::patches;
+    parameters.terrain.form = TerrainForm::patches;
     write(parameters);
   }
   fs::path copyOfTerrain() const {

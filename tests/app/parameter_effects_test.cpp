@@ -96,10 +96,11 @@ class ParameterEffects : public test::SceneTest {
     int i = 0;
     for (const AircraftState& state : packets(over(0.5, 0.2, 0))) {
       session.fly(state);
-      seen["decision " + std::to_string(i)] = explain(session.decision(), parameters) +
-                                              std::to_string(leversOf(session.decision(), *parameters).drawn.lodScale) +
-                                              std::to_string(session.decision().motion.blur.strength) +
-                                              std::to_string(session.decision().motion.blur.remainingMs);
+      seen["decision " + std::to_string(i)] =
+          explain(session.decision(), parameters) +
+          std::to_string(leversOf(session.decision(), *parameters).drawn.lodScale) +
+          std::to_string(session.decision().motion.blur.strength) +
+          std::to_string(session.decision().motion.blur.remainingMs);
       if (i % 18 == 11) {
         FrameRequest request = *session.request(state.time, 192, 108);
         // The decision is the packet's; the eye stays near the ground, where there is something to see.
@@ -323,17 +324,15 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
         {"hold.margin", "0"},
         {"measure.budget_ms", "6"}},
        &ParameterEffects::holdBudget},
-      {"lod.texture",
-       {{"static_lod.terrain", "patches"}, {"lod.scale", "4"}},
-       &ParameterEffects::flyOverTexture},
+      {"lod.texture", {{"terrain.form", "patches"}, {"lod.scale", "4"}}, &ParameterEffects::flyOverTexture},
       {"motion.frames", {}, &ParameterEffects::listenAndDraw},
       {"motion.lod_over",
        {{"motion.frames", "drawn"}, {"motion.left_fov_deg", "15"}},
        &ParameterEffects::listenAndDraw},
-      {"static_lod.", {{"static_lod.terrain", "static_trees"}}},
-      {"static_lod.", {{"static_lod.terrain", "static_trees"}, {"static_lod.rule", "factor"}}},
+      {"static_lod.", {{"terrain.form", "static_trees"}}},
+      {"static_lod.", {{"terrain.form", "static_trees"}, {"static_lod.rule", "factor"}}},
       {"terrain.",
-       {{"static_lod.terrain", "patches"}, {"terrain.cache_mb", "16"}, {"lod.screen_space_error_px", "0.25"}},
+       {{"terrain.form", "patches"}, {"terrain.cache_mb", "16"}, {"lod.screen_space_error_px", "0.25"}},
        &ParameterEffects::flyOverPatches},
       {"culling.back", {}, &ParameterEffects::flyOverRoofs},
       {"symbology. symbol", {{"symbology.enabled", "true"}}},

@@ -72,7 +72,7 @@ class BenchScene {
   FrameRequest request() const {
     FrameRequest r;
     r.view.widthPx = kWidth, r.view.heightPx = kHeight;
-    r.method = CullingCase::view_frustum;
+    r.cullingCase = CullingCase::view_frustum;
     r.eye = {Degrees{36.63}, Degrees{128.35}, Metres{610}};
     if (database_)
       r.eye.height = r.eye.height + database_->heightAt(r.eye.latitude, r.eye.longitude).value_or(Metres{0});

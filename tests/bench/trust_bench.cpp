@@ -22,7 +22,7 @@ std::filesystem::path folder;
 
 FrameRequest place(const BenchScene& scene, TerrainForm form, double eastDeg) {
   FrameRequest r = scene.request();
-  r.staticLod.terrain = form;
+  r.terrain.form = form;
   r.eye.longitude = Degrees{128.2 + eastDeg};
   r.eye.height = Metres{2500};
   r.attitude.heading = Degrees{90};
@@ -42,7 +42,7 @@ double firstImageMs(BenchScene& scene, TerrainForm form) {
   const double start = monotonicSeconds();
   scene.use(opened());
   FrameRequest r = place(scene, form, 0);
-  r.waitForPages = r.waitForPicture = true;
+  r.waitForPages = r.waitForImage = true;
   scene.draw(r);
   return (monotonicSeconds() - start) * 1e3;
 }
@@ -142,7 +142,7 @@ int measureAll(Report& report) {
     return 1;
   }
   for (BenchScene* each : {&scene, &other}) each->draw(each->request());
-  measure(report, scene, other, TerrainForm::levels, "levels");
+  measure(report, scene, other, TerrainForm::tiles, "tiles");
   measure(report, scene, other, TerrainForm::patches, "patches");
   return report.finish();
 }

@@ -34,7 +34,7 @@ TEST_F(StaticLodDock, tellsOfTreesAndDrawsThemByDistanceByLevelAndAsDocumentEsPi
   ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("tiled levels are drawn")); }));
   EXPECT_TRUE(says(QStringLiteral("126,520")));
 
-  ASSERT_TRUE(w().draft().setText("static_lod.terrain", "static_trees").empty());
+  ASSERT_TRUE(w().draft().setText("terrain.form", "static_trees").empty());
   ASSERT_TRUE(waitFor([this] { return last().staticLod.drawn; }));
   ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("static trees are drawn")); }));
 
@@ -50,7 +50,7 @@ TEST_F(StaticLodDock, tellsOfTreesAndDrawsThemByDistanceByLevelAndAsDocumentEsPi
   };
   ASSERT_TRUE(waitFor([&] { return only(1); }));
 
-  ASSERT_TRUE(w().draft().setText("static_lod.terrain", "levels").empty());
+  ASSERT_TRUE(w().draft().setText("terrain.form", "tiles").empty());
   ASSERT_TRUE(settle());
   EXPECT_TRUE(last().staticLod.drawn) << "the picture is of the trees whatever the preset draws";
   for (QCheckBox* box : panel().findChildren<QCheckBox*>()) box->setChecked(false);

@@ -95,7 +95,7 @@ TEST_F(TerrainDock, saysOnceThatWhatIsFlownOverIsDamaged) {
       }
     }
     const bool patches = std::string(file) == "patches.pages";
-    ASSERT_TRUE(w().draft().setText("static_lod.terrain", patches ? "patches" : "levels").empty());
+    ASSERT_TRUE(w().draft().setText("terrain.form", patches ? "patches" : "tiles").empty());
     const auto count = [&](const char* text) { return w().messages().text().count(QLatin1String(text)); };
     const auto before = count("The terrain is damaged");
     w().controllers().terrain->open(QString::fromStdString(copy.string()));
@@ -117,7 +117,7 @@ TEST_F(TerrainDock, saysOnceThatWhatIsFlownOverIsDamaged) {
 }
 
 TEST_F(TerrainDock, drawsPatchesWhereThePresetSaysSo) {
-  ASSERT_TRUE(w().draft().setText("static_lod.terrain", "patches").empty());
+  ASSERT_TRUE(w().draft().setText("terrain.form", "patches").empty());
   ASSERT_TRUE(waitFor([this] { return last().patches; }));
   ASSERT_TRUE(waitFor([this] { return says(QStringLiteral("<b>Patches</b>")) && drawnRows() > 0; }));
   EXPECT_TRUE(waitFor([this] { return last().paging.heldBack == 0; }))

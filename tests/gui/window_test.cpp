@@ -163,7 +163,7 @@ TEST_F(WorkbenchWindow, theCullingCaseIsSwitchedLiveAndCanBeUndone) {
   const auto triangles = [&] { return last().visible.triangles; };
   const auto fewest = triangles();
   ASSERT_NO_FATAL_FAILURE(trigger("No culling"));
-  EXPECT_EQ(w().draft().parameters().culling.method, CullingCase::none);
+  EXPECT_EQ(w().draft().parameters().culling.cullingCase, CullingCase::none);
   ASSERT_TRUE(settle());
   EXPECT_GT(triangles(), fewest);
   EXPECT_EQ(last().visible.outsideFrustum, 0u);

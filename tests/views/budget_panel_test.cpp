@@ -34,7 +34,7 @@ LiveFrame frameAt(double time, HoldReason reason, double heldPx) {
     step->errorPx = 1;
   levers.drawn = withBudget(levers.policy, frame.hold.held);
   frame.hold.limitMs = 15.4;
-  frame.hold.bandMs = 1.5;
+  frame.hold.halfBandMs = 1.5;
   frame.holdGains.error = {6, 0.0041};
   frame.holdGains.renderScale = {3.96, 0.0105};
   frame.holdOutcome = HoldOutcome{3, 110, 100, 14, 1.5, 15};

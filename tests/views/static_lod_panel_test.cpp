@@ -133,9 +133,9 @@ TEST_F(StaticLodPanelTest, editsThePreset) {
   const auto boxes = panel_.findChildren<ChoiceBox*>();
   ASSERT_FALSE(boxes.isEmpty());
   boxes.front()->setCurrentIndex(static_cast<int>(TerrainForm::static_trees));
-  EXPECT_EQ(draft_.active()->staticLod.terrain, TerrainForm::static_trees);
+  EXPECT_EQ(draft_.active()->terrain.form, TerrainForm::static_trees);
   draft_.undoStack().undo();
-  EXPECT_EQ(draft_.active()->staticLod.terrain, TerrainForm::levels);
+  EXPECT_EQ(draft_.active()->terrain.form, TerrainForm::tiles);
   EXPECT_EQ(boxes.front()->currentIndex(), 0);
 }
 

@@ -31,9 +31,9 @@ QString whoServes(OcclusionMethod method, const CullingParameters& culling) {
 QString whyNoDepthMap(const LiveFrame& frame, const TuningParameters& parameters) {
   const FrameResult& drawn = frame.drawn();
   if (drawn.depthMap) return {};
-  if (parameters.culling.method != CullingCase::proposed)
+  if (parameters.culling.cullingCase != CullingCase::proposed)
     return QObject::tr("No depth map: the Culling case is “%1”, which looks for nothing behind the ground.")
-        .arg(labelOf(parameters.culling.method));
+        .arg(labelOf(parameters.culling.cullingCase));
   if (frame.decision.scheme == Scheme::frustum) return QObject::tr("No depth map: scheme is frustum");
   if (!frame.result) return QObject::tr("No depth map yet: nothing has been drawn");
   if (!drawn.note.empty()) return QObject::tr("No depth map: %1").arg(QString::fromStdString(drawn.note));

@@ -266,7 +266,7 @@ void BudgetPanel::showFrame(const LiveFrame& frame) {
 void BudgetPanel::count(const HoldOutcome& o) {
   if (o.triangles > 0) trianglesOff_.add(std::abs(o.predictedTriangles / o.triangles - 1));
   if (o.ms > 0) timeOff_.add(std::abs(o.predictedMs / o.ms - 1));
-  within_.add(std::abs(o.predictedMs - o.ms) <= o.bandMs);
+  within_.add(std::abs(o.predictedMs - o.ms) <= o.halfBandMs);
 }
 
 void BudgetPanel::note(const LiveFrame& frame) {

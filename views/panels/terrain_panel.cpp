@@ -19,8 +19,8 @@
 namespace trimtab::views {
 namespace {
 
-constexpr const char* kTerrainKeys[] = {"static_lod.terrain", "lod.screen_space_error_px", "lod.scale",
-                                        "lod.level_spread",   "lod.level_spread_from_m",   "lod.texture",
+constexpr const char* kTerrainKeys[] = {"terrain.form",     "lod.screen_space_error_px", "lod.scale",
+                                        "lod.level_spread", "lod.level_spread_from_m",   "lod.texture",
                                         "terrain.cache_mb"};
 
 QString megabytes(std::uint64_t bytes) {

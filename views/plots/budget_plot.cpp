@@ -142,8 +142,8 @@ void BudgetPlot::append(const LiveFrame& frame, double budgetMs) {
   addStack(predicted_, time, hold.heldMs, predicted);
   addStack(measured_, time, stagesOf(frame.cost), std::isfinite(workMs(frame.cost)));
   const double heldMs = hold.heldMs.total();
-  bandLow_->addData(time, orGap(std::max(heldMs - hold.bandMs, 0.0)));
-  bandHigh_->addData(time, orGap(heldMs + hold.bandMs));
+  bandLow_->addData(time, orGap(std::max(heldMs - hold.halfBandMs, 0.0)));
+  bandHigh_->addData(time, orGap(heldMs + hold.halfBandMs));
   asked_->addData(time, orGap(hold.askedMs.total()));
   budget_->addData(time, budgetMs);
   measuredBudget_->addData(time, budgetMs);
@@ -151,8 +151,8 @@ void BudgetPlot::append(const LiveFrame& frame, double budgetMs) {
   const auto& outcome = frame.holdOutcome;
   const bool due = hold.reason != HoldReason::off && outcome && outcome->ms > 0;
   off_->addData(time, due ? 100 * (outcome->predictedMs / outcome->ms - 1) : kGap);
-  offLow_->addData(time, due ? -100 * outcome->bandMs / outcome->ms : kGap);
-  offHigh_->addData(time, due ? 100 * outcome->bandMs / outcome->ms : kGap);
+  offLow_->addData(time, due ? -100 * outcome->halfBandMs / outcome->ms : kGap);
+  offHigh_->addData(time, due ? 100 * outcome->halfBandMs / outcome->ms : kGap);
   none_->addData(time, 0);
   for (int i = 0; i < graphCount(); ++i) graph(i)->data()->removeBefore(time - kSpanS);
 }

@@ -29,7 +29,7 @@ constexpr double kLongestRateGapS = 0.5;
 /// Each image moves the displayed rate by this share of the way to its own.
 constexpr double kRateShare = 0.1;
 constexpr double kUnseenStretch = 0.01;
-/// How soon an image that lacks pages of the terrain is drawn again.
+/// How soon an image that misses pages of the terrain is drawn again.
 constexpr int kPageWaitMs = 15;
 
 /// Returns the largest size inside the widget at which pixels are square in the view. A preset gives both

@@ -236,13 +236,13 @@ void Feed::advance(double now) {
 }
 
 bool Feed::movesOnItsOwn(double now) const {
-  if (source_ == Source::flight) return playback_.playing() || session_.needsPicture(now);
+  if (source_ == Source::flight) return playback_.playing() || session_.needsImage(now);
   if (source_ == Source::camera)
-    return (camera_ && session_.head().moves(now)) || (session_.hasState() && session_.needsPicture(now));
+    return (camera_ && session_.head().moves(now)) || (session_.hasState() && session_.needsImage(now));
   if (session_.unsettled()) return true;
   // Ask a little ahead: directly after an image of `now` nothing has moved yet.
   return source_ == Source::host && session_.linkState(now) != LinkState::silent &&
-         session_.needsPicture(now + 0.02);
+         session_.needsImage(now + 0.02);
 }
 
 void Feed::noteDecision() {

@@ -31,7 +31,7 @@ FrameRequest pilotsPicture(FrameRequest request, int shrink) {
 
 bool sameImage(const FrameRequest& a, const FrameRequest& b) {
   return a.eye == b.eye && a.attitude == b.attitude && a.view == b.view && a.levers.drawn == b.levers.drawn &&
-         a.decision == b.decision && a.method == b.method;
+         a.decision == b.decision && a.cullingCase == b.cullingCase;
 }
 
 LiveMeter::LiveMeter(DrawThread& thread, Source source, QObject* parent)

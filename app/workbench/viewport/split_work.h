@@ -29,7 +29,7 @@ struct SplitView::Work {
     double drawMs(scene::ErrorMeter& meter) const {
       FrameRequest request = reference ? scene::referenceOf(requests.back()) : requests.back();
       // As an image generator has it: the image is finished when its time is taken.
-      request.waitForPicture = true;
+      request.waitForImage = true;
       return meter.draw(request).cost.total;
     }
     void measure(scene::ErrorMeter& meter) {

@@ -29,16 +29,16 @@ GlReport reportContext() {
   report.renderer = text(GL_RENDERER);
   report.software = contextIsSoftware();
 
-  const auto lacks = [&report](const char* what) {
+  const auto misses = [&report](const char* what) {
     report.missing += (report.missing.empty() ? "" : "; ") + std::string(what);
   };
   GLint major = 0, minor = 0, profile = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   glGetIntegerv(GL_MINOR_VERSION, &minor);
-  if (major < 4 || (major == 4 && minor < 5)) lacks("OpenGL 4.5 (clip control, texture buffers, GLSL 4.30)");
+  if (major < 4 || (major == 4 && minor < 5)) misses("OpenGL 4.5 (clip control, texture buffers, GLSL 4.30)");
   if (major > 3 || (major == 3 && minor > 1)) {
     glGetIntegerv(GL_CONTEXT_PROFILE_MASK, &profile);
-    if (!(profile & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT)) lacks("the compatibility profile");
+    if (!(profile & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT)) misses("the compatibility profile");
   }
   while (glGetError() != GL_NO_ERROR) {
   }

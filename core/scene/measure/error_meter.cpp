@@ -29,7 +29,7 @@ constexpr double kNoTrace = 1.0 / 1024;
 /// Returns a request without what both images leave out.
 FrameRequest withoutEngineer(const FrameRequest& request) {
   FrameRequest r = request;
-  if (asksForTrees(request)) r.staticLod.terrain = TerrainForm::static_trees;
+  if (asksForTrees(request)) r.terrain.form = TerrainForm::static_trees;
   r.overlays = {};
   r.overlays.treeDepth = request.overlays.treeDepth;
   r.frozenEye.reset();
@@ -92,13 +92,13 @@ std::vector<float> upTo(double farM, std::vector<float> distances) {
 
 FrameRequest referenceOf(const FrameRequest& request) {
   FrameRequest r = withoutEngineer(request);
-  r.method = CullingCase::view_frustum;
+  r.cullingCase = CullingCase::view_frustum;
   r.overlays.treeDepth = -1;
   r.terrain.cache = std::max(r.terrain.cache, kReferenceCache);
   r.staticLod.error = ErrorMeasure::maximum;
   r.staticLod.rule = StaticDistanceRule::picture;
   r.levers.drawn = {};
-  r.levers.drawn.errorPx = (r.staticLod.terrain == TerrainForm::patches ? kFinestPatches : kFinest).value();
+  r.levers.drawn.errorPx = (r.terrain.form == TerrainForm::patches ? kFinestPatches : kFinest).value();
   r.levers.drawn.treeErrorPx = kFinest.value();
   return r;
 }
@@ -139,7 +139,7 @@ struct ReferenceKey {
   PrecipitationForm precipitationForm = PrecipitationForm::effect;  ///< likewise
   std::optional<FadingPrecipitation> fading;
   std::optional<SymbologyRequest> symbology;
-  TerrainForm form = TerrainForm::levels;
+  TerrainForm form = TerrainForm::tiles;
   friend bool operator==(const ReferenceKey&, const ReferenceKey&) = default;
 };
 
@@ -151,7 +151,7 @@ ReferenceKey keyOf(const FrameRequest& r) {
   key.view = r.view;
   key.fading = r.fading;
   key.symbology = r.symbology;
-  key.form = asksForTrees(r) ? TerrainForm::static_trees : r.staticLod.terrain;
+  key.form = asksForTrees(r) ? TerrainForm::static_trees : r.terrain.form;
   if (w.fogged) {
     key.weather.fogged = true;
     key.weather.extinctionPerM = w.extinctionPerM;
@@ -219,7 +219,7 @@ struct ErrorMeter::Impl {
   const Reference& reference(const FrameRequest& request);
   /// Asking for the form that it is drawn in.
   FrameRequest asDrawn(FrameRequest request) const {
-    if (const auto form = formDrawn(request, database.get())) request.staticLod.terrain = *form;
+    if (const auto form = formDrawn(request, database.get())) request.terrain.form = *form;
     return request;
   }
 };

@@ -49,9 +49,9 @@ HorizonMemory::Result HorizonMemory::find(OcclusionGround& ground, Vec3 eye,
   const Key key{eye, ground.cutNumber(), settings};
   const bool samePlace = key_ == key;
   if (!samePlace && skips.littleHidden && hidLittleNear(key)) return {.hidden = {}, .leftOut = true};
-  const std::size_t lacking = ground.makeSurfaces(eye), nodes = ground.cut().tiles.size();
+  const std::size_t missing = ground.makeSurfaces(eye), nodes = ground.cut().tiles.size();
   if (!ground.isGraph()) {
-    if (lacking == 0) {
+    if (missing == 0) {
       clear();
       ground.forgetOthers();
     }
@@ -59,9 +59,10 @@ HorizonMemory::Result HorizonMemory::find(OcclusionGround& ground, Vec3 eye,
   }
   // Surfaces made since the last horizon enter the next one, and an eye that moves begins one soon. For an
   // eye at rest one is built when twice as many surfaces are there, or half as many are missing, or none is.
-  const bool muchMore = 2 * lacking <= lacked_ || nodes - lacking >= 2 * (nodes - std::min(lacked_, nodes));
-  const bool grown = lacking < lacked_ &&
-                     ((samePlace && lacking == 0) || (SurfaceShare::isMany(lacked_, nodes) && muchMore));
+  const bool muchMore =
+      2 * missing <= missingThen_ || nodes - missing >= 2 * (nodes - std::min(missingThen_, nodes));
+  const bool grown = missing < missingThen_ &&
+                     ((samePlace && missing == 0) || (SurfaceShare::isMany(missingThen_, nodes) && muchMore));
   if (grown) moving_.restart();
   MovingHorizon::Frame frame;
   frame.eye = eye;
@@ -74,18 +75,18 @@ HorizonMemory::Result HorizonMemory::find(OcclusionGround& ground, Vec3 eye,
   frame.sameHorizon = skips.sameHorizon;
   frame.incremental = !alone;
   frame.mayOcclude = [&ground](std::uint32_t node) { return ground.mayOcclude(node); };
-  frame.takesRoom = [&ground](std::uint32_t node) { return ground.takesRoom(node); };
+  frame.replacementsStayNear = [&ground](std::uint32_t node) { return ground.replacementsStayNear(node); };
   const std::uint64_t scratch = moving_.fromScratch(), built = moving_.built();
   const Horizon* const before = &horizon();
   const auto hidden = moving_.hidden(frame, ground.tree(), [&](std::vector<HorizonTile>& tiles) {
-    lacked_ = lacking;
+    missingThen_ = missing;
     ground.fill(tiles);
   });
   const bool atOnce = moving_.fromScratch() != scratch;
   number_ += atOnce || before != &horizon();
   if (!samePlace || grown) {
     const auto count = static_cast<std::size_t>(std::count(hidden.begin(), hidden.end(), std::uint8_t{1}));
-    hidLittle_ = isLittle(count, hidden.size()) && !SurfaceShare::isMany(lacked_, nodes);
+    hidLittle_ = isLittle(count, hidden.size()) && !SurfaceShare::isMany(missingThen_, nodes);
   }
   key_ = key;
   return {.hidden = hidden, .moved = !samePlace && !atOnce, .built = moving_.built() - built};

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/terrain/surfaces_in_use.h"
+#include "core/scene/surface/surfaces_in_use.h"
 #include "occlusion_conditions.h"
 #include "trimtab/culling/depth_map.h"
 #include "trimtab/culling/select.h"

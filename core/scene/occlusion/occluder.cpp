@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/scene/terrain/tiles/tile_indices.h"
+#include "core/scene/surface/tile_indices.h"
 #include "trimtab/frame/box_union.h"
 
 namespace trimtab::scene {

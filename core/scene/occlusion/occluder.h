@@ -4,21 +4,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/scene/shaders/shared_constants.h"
 #include "trimtab/terrain/format/database.h"
 
 /// The lowered copy of a tile that may hide others, and the boxes that must be hidden before the tile itself
 /// may be left out. resources/docs/occlusion.md has the proof.
 namespace trimtab::scene {
-
-constexpr int kOccluderStep = 2;  ///< an occluder uses every second post
-constexpr int kOccluderSide = TerrainIndex::kTileCells / kOccluderStep + 1;
-constexpr int kRing = 4 * (kOccluderSide - 1);
-/// First the posts row by row, then the border again, lower. That makes a wall around the tile, without which
-/// rays would pass between tiles whose borders are lowered differently.
-constexpr int kOccluderVertices = kOccluderSide * kOccluderSide + kRing;
-/// A tile is tested as 4 x 4 boxes, because a single box would stand out above the ridge that hides the tile.
-constexpr int kPartsPerSide = 4;
-constexpr int kParts = kPartsPerSide * kPartsPerSide;
 
 /// A vertex of an occluder, metres from the tile's origin. It is so low that no point of its triangles is
 /// above the tile as drawn, whichever of the tile's sides are stitched to coarser neighbours. `slope` is an

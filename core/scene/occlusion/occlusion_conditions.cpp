@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/scene/terrain/triangle_height.h"
+#include "core/scene/surface/triangle_height.h"
 
 namespace trimtab::scene {
 namespace {

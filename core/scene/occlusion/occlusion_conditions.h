@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/terrain/tiles/tile_indices.h"
+#include "core/scene/surface/tile_indices.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/terrain/format/database.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/terrain/surfaces_in_use.h"
+#include "core/scene/surface/surfaces_in_use.h"
 #include "trimtab/culling/horizon.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/culling/surface_tree.h"
@@ -45,8 +45,8 @@ class OcclusionGround {
   virtual SurfaceTree tree() const = 0;
   /// Returns whether a node may hide others if it is drawn.
   virtual bool mayOcclude(std::uint32_t node) = 0;
-  /// Implements MovingHorizon::Frame::takesRoom for a node of the cut.
-  virtual bool takesRoom(std::uint32_t node) const = 0;
+  /// Implements MovingHorizon::Frame::replacementsStayNear for a node of the cut.
+  virtual bool replacementsStayNear(std::uint32_t node) const = 0;
   /// Allows surfaces that `fill` handed out to be freed, because no horizon uses them any more.
   virtual void forgetOthers() = 0;
   /// Returns false if, as far as is known, a place may have two heights. Then there is no horizon.

@@ -25,7 +25,7 @@ constexpr const char* kNoGraph =
 
 /// Returns the occlusion resolution that the band asks for; unset if the scheme asks for no occlusion test.
 std::optional<OcclusionResolution> occlusionResolution(const FrameRequest& request) {
-  if (request.method != CullingCase::proposed) return {};
+  if (request.cullingCase != CullingCase::proposed) return {};
   const std::optional<OcclusionResolution>& asked = request.levers.drawn.occlusion;
   if (asked || request.skips.schemeFrustum) return asked;
   const Band& smallest = kDepthMapBands.span().front();
@@ -143,7 +143,7 @@ std::optional<OcclusionMethod> OcclusionStage::choose(const FrameRequest& reques
 bool OcclusionStage::visibleStays(const FrameRequest& request) {
   VisibleKey key{eye_,
                  request.view,
-                 request.method,
+                 request.cullingCase,
                  request.backFaces && eyeIsAboveGround(),
                  farCutM(request),
                  ground_.cutNumber(),
@@ -179,12 +179,12 @@ std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& re
   mapHid_ = true;
   ++counters_.mapsDrawnByCpu;
   result_.depthMap = resolution_;
-  if (ground_.share().lacksAny())
+  if (ground_.share().missesAny())
     visibleKey_.reset();  // the next frame's map knows more
   else if (visibleKey_)
     visibleKey_->surfaces = ground_.share().made();
   const auto hidden = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
-  if (HorizonMemory::isLittle(hidden, visible.tiles.size()) && !ground_.share().lacksMany())
+  if (HorizonMemory::isLittle(hidden, visible.tiles.size()) && !ground_.share().missesMany())
     barren_ = {eye_.position, forwardOf(eye_), ground_.cutNumber().rule, resolution_, *serves_};
   else
     barren_.reset();
@@ -194,7 +194,7 @@ std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& re
 void OcclusionStage::finished(const FrameResult& result) {
   if (result.cost.total > 0 && std::isfinite(result.cost.total)) drawingMs_ += result.cost.total;
   if (!chosen_) return;
-  if (ground_.share().lacksMany() && ++unlearnt_ < kUnlearntFrames) return;
+  if (ground_.share().missesMany() && ++unlearnt_ < kUnlearntFrames) return;
   unlearnt_ = 0;
   const auto or0 = [](double ms) { return std::isfinite(ms) ? ms : 0; };
   const FrameCost& cost = result.cost;
@@ -215,7 +215,7 @@ void OcclusionStage::finished(const FrameResult& result) {
 VisibleQuery OcclusionStage::query(const FrameRequest& request) {
   VisibleQuery query{.eye = eye_,
                      .view = request.view,
-                     .cull = request.method != CullingCase::none,
+                     .cull = request.cullingCase != CullingCase::none,
                      .farM = farCutM(request),
                      .hidden = hidden_,
                      .backFaces = request.backFaces && eyeIsAboveGround()};

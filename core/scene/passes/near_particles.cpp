@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/scene/passes/scene_view.h"
 #include "core/scene/passes/weather_precipitation.h"
-#include "core/scene/scene_graph.h"
 
 namespace trimtab::scene {
 namespace {

@@ -7,8 +7,8 @@
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_program.h"
 #include "core/scene/gl/mesh_pool.h"
+#include "core/scene/passes/scene_view.h"
 #include "core/scene/passes/weather_precipitation.h"
-#include "core/scene/scene_graph.h"
 #include "core/scene/shaders/shaders.h"
 
 namespace trimtab::scene {

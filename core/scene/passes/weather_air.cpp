@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/shaders/light.h"
 #include "trimtab/weather/haze_layer.h"
 
 namespace trimtab::scene {

@@ -21,10 +21,6 @@ struct Air {
   friend bool operator==(const Air&, const Air&) = default;
 };
 
-/// Haze of clear air, sRGB: the colour of the horizon and of thin fog.
-inline constexpr std::array<float, 3> kHaze{0.74f, 0.80f, 0.86f};
-/// After so many metres of clear air a third (1 / e) of a colour is left.
-inline constexpr double kHazeDistanceM = 110e3;
 /// Fog reaches this far above the eye, metres. No terrain that the eye can see stands higher above it, so
 /// the sky behind a mountain that the cut takes away is at least as deep in fog as the mountain was.
 inline constexpr double kFogTopM = 5000;

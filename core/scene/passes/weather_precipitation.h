@@ -1,19 +1,12 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include "trimtab/culling/select.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/weather_decision.h"
 
-namespace osg {
-class Node;
-}
-
 namespace trimtab::scene {
-
-struct SceneView;
 
 /// Says what falls in one frame. Without density there is no such view.
 struct PrecipitationView {
@@ -40,25 +33,5 @@ std::optional<PrecipitationView> precipitationView(const FrameRequest& request, 
 /// after each cell along z.
 Vec3 latticeFromEye(Vec3 eye, Vec3 cell);
 inline constexpr double kCellsUntilSame = 100;
-
-/// Draws osgParticle::PrecipitationEffect under our conventions: reversed depth, an eye at the origin, and
-/// an image that depends on its request alone. The effect chooses the cells around the eye and draws each;
-/// the shaders are ours.
-class PrecipitationNode {
- public:
-  static constexpr int kFirstBin = 10, kLastBin = 12;  ///< its render bins: points, lines, quads
-
-  PrecipitationNode();
-  ~PrecipitationNode();
-  PrecipitationNode(const PrecipitationNode&) = delete;
-  PrecipitationNode& operator=(const PrecipitationNode&) = delete;
-
-  osg::Node* node() const;
-  void set(const std::optional<PrecipitationView>& falling, const SceneView& view);
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
 
 }  // namespace trimtab::scene

@@ -1,5 +1,5 @@
 #version 430 compatibility
-// Lowers the occluders: core/scene/occlusion/occlusion.h has the proof.
+// Lowers the occluders: core/scene/terrain/tiles/occlusion_pass.h has the proof.
 #include "relative_position.glsl"
 in vec4 vertexPosition;      // w: slope bound
 uniform vec3 forward;        // of the view, local axes

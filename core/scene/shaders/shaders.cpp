@@ -4,13 +4,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "core/scene/occlusion/occlusion.h"
-#include "core/scene/passes/weather_air.h"
-#include "core/scene/terrain/ground/ground_texture.h"
-#include "core/scene/terrain/ground/sun.h"
-#include "core/scene/terrain/patches/patch_layer.h"
-#include "core/scene/terrain/static_trees/static_lod_layer.h"
-#include "core/scene/terrain/tiles/tile_cache.h"
+#include "light.h"
+#include "shared_constants.h"
 
 namespace trimtab::scene {
 
@@ -38,13 +33,13 @@ std::string sharedConstants() {
   const auto define = [&lines](const char* name, auto value) {
     lines += std::string("#define ") + name + " " + std::to_string(value) + "\n";
   };
-  define("TILE_VERTICES", TileCache::kVerticesPerTile);
-  define("PATCH_BLOCK", PatchLayer::kBlock);
-  define("TREE_BLOCK", StaticLodLayer::kBlock);
+  define("TILE_VERTICES", kTileVertices);
+  define("PATCH_BLOCK", kPatchBlock);
+  define("TREE_BLOCK", kTreeBlock);
   define("OCCLUDER_VERTICES", kOccluderVertices);
   define("PARTS", kParts);
-  define("TESTED_PER_ROW", OcclusionPass::kTilesPerRow);
-  define("GROUND_SIDE_BITS", std::countr_zero(static_cast<unsigned>(GroundTexture::kSide)));
+  define("TESTED_PER_ROW", kTestedPerRow);
+  define("GROUND_SIDE_BITS", std::countr_zero(static_cast<unsigned>(kGroundSide)));
   define("SKY_LIGHT", kSkyLight);
   define("UPWARD_LIGHT", kUpwardLight);
   define("SUN_LIGHT", kSunLight);
@@ -71,22 +66,6 @@ std::string completeShader(std::string text, const std::vector<const char*>& def
 
 std::string shaderText(const char* name, const std::vector<const char*>& defines) {
   return completeShader(fileNamed(name), defines);
-}
-
-ShaderPair shaderPair(const char* vertexName, const char* fragmentName) {
-  return {shaderText(vertexName), shaderText(fragmentName)};
-}
-
-ShaderPair terrainShaders(TerrainForm form, bool nodes) {
-  const bool patches = form == TerrainForm::patches;
-  std::vector<const char*> defines;
-  if (form == TerrainForm::static_trees) defines.push_back("STATIC_TREE");
-  if (nodes) defines.push_back("NODE_IDS");
-  return {shaderText(patches ? "patch.vert.glsl" : "terrain.vert.glsl", defines),
-          shaderText(nodes     ? "node.frag.glsl"
-                     : patches ? "patch.frag.glsl"
-                               : "terrain.frag.glsl",
-                     defines)};
 }
 
 }  // namespace trimtab::scene

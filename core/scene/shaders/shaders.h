@@ -3,8 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "trimtab/preset/parameters.h"
-
 namespace trimtab::scene {
 
 /// Texture units that the shaders and the passes agree on; the ground's is kGroundUnit in ground_texture.h.
@@ -17,13 +15,5 @@ std::string shaderText(const char* name, const std::vector<const char*>& defines
 /// Replaces every `#include "NAME"` line by that shader file, and inserts after the first line, which has to
 /// be `#version`, a `#define` for each constant that C++ and the shaders share and for each of `defines`.
 std::string completeShader(std::string text, const std::vector<const char*>& defines = {});
-
-struct ShaderPair {
-  std::string vertex, fragment;
-};
-ShaderPair shaderPair(const char* vertexName, const char* fragmentName);
-/// Returns the shaders that draw a terrain's surface in a form; with `nodes` those of the node pass, which
-/// write the number of the node that each pixel shows instead of its colour.
-ShaderPair terrainShaders(TerrainForm form, bool nodes = false);
 
 }  // namespace trimtab::scene

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "surfaces_in_use.h"
+#include "core/scene/surface/surfaces_in_use.h"
 #include "trimtab/culling/mesh_relief.h"
 
 namespace trimtab::scene {

@@ -8,7 +8,7 @@
 
 #include "core/scene/gl/stage_clock.h"
 #include "core/scene/passes/lines.h"
-#include "core/scene/scene_graph.h"
+#include "core/scene/passes/scene_view.h"
 #include "trimtab/culling/horizon.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"

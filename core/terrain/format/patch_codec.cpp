@@ -24,7 +24,7 @@ struct BlobHeader {
   std::uint32_t magic = kBlobMagic, page = 0, patches = 0, vertices = 0, indices = 0;
   std::uint32_t patchBytes = 0, vertexBytes = 0, indexBytes = 0, exceptions = 0;
   std::uint32_t postShift = 0;  ///< of columns and rows
-  std::uint32_t heirBytes = 0;
+  std::uint32_t inheritedBytes = 0;
 };
 static_assert(sizeof(BlobHeader) == 44);
 
@@ -117,11 +117,12 @@ bool unpack(void* values, std::size_t count, std::size_t each, const std::byte* 
 }
 
 /// Writes which triangles are inherited, a bit or two each.
-class HeirWriter {
+class InheritedWriter {
  public:
-  void add(Heir heir) {
-    open_ |= std::uint64_t{heir == Heir::same} << count_ | std::uint64_t{heir == Heir::other} << (count_ + 1);
-    count_ += 1 + (heir != Heir::same);
+  void add(Inherited inheritance) {
+    open_ |= std::uint64_t{inheritance == Inherited::same} << count_ |
+             std::uint64_t{inheritance == Inherited::other} << (count_ + 1);
+    count_ += 1 + (inheritance != Inherited::same);
     if (count_ >= 48) flush();
   }
   const std::vector<std::uint8_t>& finish() {
@@ -139,11 +140,11 @@ class HeirWriter {
   std::uint32_t count_ = 0;
 };
 
-class HeirReader {
+class InheritedReader {
  public:
-  explicit HeirReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  explicit InheritedReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
   /// Returns none beyond the end.
-  Heir next() { return bit() ? Heir::same : bit() ? Heir::other : Heir::none; }
+  Inherited next() { return bit() ? Inherited::same : bit() ? Inherited::other : Inherited::none; }
   /// Reports whether all bytes were read.
   bool isAtEnd() const { return (next_ + 7) / 8 == bytes_.size(); }
 
@@ -159,7 +160,7 @@ class HeirReader {
 /// Lists the triangles that are packed: all of the finest variant, and of each other variant those that the
 /// one before does not have.
 void split(const PatchMesh& mesh, std::size_t variants, std::vector<std::uint16_t>& packed,
-           HeirWriter& heirs) {
+           InheritedWriter& inherited) {
   const std::uint16_t* const all = mesh.indices.data();
   packed.assign(all, all + mesh.firstIndex[1]);
   for (std::size_t v = 1; v < variants; ++v) {
@@ -168,13 +169,13 @@ void split(const PatchMesh& mesh, std::size_t variants, std::vector<std::uint16_
     std::size_t size = packed.size();
     packed.resize(size + (end - own) + 3);
     for (std::uint32_t t = mesh.firstIndex[v - 1] / 3; t < mesh.firstIndex[v] / 3; ++t) {
-      const Heir heir = mesh.heirs.empty() ? Heir::none : mesh.heirs[t];
-      heirs.add(heir);
+      const Inherited inheritance = mesh.inherited.empty() ? Inherited::none : mesh.inherited[t];
+      inherited.add(inheritance);
       // The processor cannot predict whether a triangle is inherited, so there is no branch.
       const std::uint16_t* const from = all + std::min(own, end - 3);
       for (std::size_t k = 0; k < 3; ++k) packed[size + k] = from[k];
-      size += std::size_t{3} * (heir == Heir::other);
-      own += 3u * (heir != Heir::none);
+      size += std::size_t{3} * (inheritance == Inherited::other);
+      own += 3u * (inheritance != Inherited::none);
     }
     packed.resize(size);
     packed.insert(packed.end(), all + own, all + end);
@@ -223,7 +224,7 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PatchIndex& index
   std::vector<PackedVertex> vertices;
   std::vector<std::uint32_t> indices, goesTo;
   std::vector<std::uint16_t> packed;
-  HeirWriter heirs;
+  InheritedWriter inherited;
   std::vector<Exception> exceptions;
   for (const PatchMesh& mesh : page.patches) {
     PackedPatch patch{{mesh.origin[0], mesh.origin[1], mesh.origin[2]},
@@ -235,7 +236,7 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PatchIndex& index
       patch.triangles[v] = (mesh.firstIndex[v + 1] - mesh.firstIndex[v]) / 3;
     append(patches, reinterpret_cast<const std::byte*>(&patch), patchBytes);
     const std::size_t first = vertices.size();
-    split(mesh, variants, packed, heirs);
+    split(mesh, variants, packed, inherited);
     reorder(packed, mesh.vertices.size(), static_cast<std::uint32_t>(first), indices, goesTo);
     vertices.resize(first + mesh.vertices.size());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -273,9 +274,9 @@ std::vector<std::byte> encodePage(const PatchPage& page, const PatchIndex& index
     header.indexBytes = static_cast<std::uint32_t>(size);
   }
   append(bytes, exceptions.data(), exceptions.size());
-  const std::vector<std::uint8_t>& heirBytes = heirs.finish();
-  append(bytes, heirBytes.data(), heirBytes.size());
-  header.heirBytes = static_cast<std::uint32_t>(heirBytes.size());
+  const std::vector<std::uint8_t>& inheritedBytes = inherited.finish();
+  append(bytes, inheritedBytes.data(), inheritedBytes.size());
+  header.inheritedBytes = static_cast<std::uint32_t>(inheritedBytes.size());
   std::memcpy(bytes.data(), &header, sizeof header);
   return bytes;
 }
@@ -297,7 +298,7 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
     return wrong("patches", number(expected.patches), number(header.patches));
   const std::uint64_t size = std::uint64_t{sizeof header} + header.patchBytes + header.vertexBytes +
                              header.indexBytes + std::uint64_t{header.exceptions} * sizeof(Exception) +
-                             header.heirBytes;
+                             header.inheritedBytes;
   if (size != bytes.size()) return wrong("size", number(size) + " bytes", number(bytes.size()) + " bytes");
   // These checks come before anything is allocated by what the header claims: sixteen packed vertices need
   // three bytes or more, a triangle one.
@@ -323,7 +324,7 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
     return wrong("triangles", "packed triangles", "something else");
   from += header.indexBytes;
   if (!exceptions.empty()) std::memcpy(exceptions.data(), from, exceptions.size() * sizeof(Exception));
-  HeirReader heirs(bytes.last(header.heirBytes));
+  InheritedReader inherited(bytes.last(header.inheritedBytes));
 
   PatchPage out;
   out.page = page;
@@ -392,10 +393,10 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
     for (std::size_t v = 0; v < variants && sound; ++v) {
       const std::uint16_t* const end = mesh.indices.data() + mesh.firstIndex[v + 1];
       for (std::uint32_t t = 0; v > 0 && t < patch.triangles[v - 1] && sound; ++t) {
-        const Heir heir = heirs.next();
-        if (heir == Heir::none) continue;
+        const Inherited inheritance = inherited.next();
+        if (inheritance == Inherited::none) continue;
         sound = to < end;
-        if (sound && heir == Heir::same)
+        if (sound && inheritance == Inherited::same)
           to = std::copy_n(mesh.indices.data() + mesh.firstIndex[v - 1] + 3 * t, 3, to);
         else
           sound = sound && takePacked(3);
@@ -407,7 +408,7 @@ Result<PatchPage> decodePage(std::span<const std::byte> bytes, const PatchIndex&
                    "others");
     firstVertex += patch.vertices;
   }
-  if (!heirs.isAtEnd()) return wrong("heirs", "as many as there are triangles", "others");
+  if (!inherited.isAtEnd()) return wrong("inherited triangles", "as many as there are triangles", "others");
   if (firstVertex != vertices.size() || next != indices.size())
     return wrong("counts", number(firstVertex) + " vertices, " + number(next / 3) + " triangles",
                  number(vertices.size()) + " and " + number(indices.size() / 3));

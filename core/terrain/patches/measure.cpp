@@ -220,7 +220,7 @@ class PageMeasure {
         // The wanted edges cannot be guessed, so this has no branch.
         const Edge edge{c[k], c[k == 2 ? 0 : k + 1]};
         const std::int32_t twin = of.twins[3 * t + k], other = twin >> 2;
-        const bool isNew = of.heirs[static_cast<std::size_t>(std::max(other, 0))] == Heir::other;
+        const bool isNew = of.inherited[static_cast<std::size_t>(std::max(other, 0))] == Inherited::other;
         const bool once = ((twin < 0) & (v == 0)) | ((static_cast<std::int32_t>(t) < other) & isNew);
         const ScanVertex &a = corners_[edge[0]], &b = corners_[edge[1]];
         const std::int32_t wide = std::abs(b.x - a.x), high = std::abs(b.y - a.y);

@@ -22,14 +22,14 @@ void addTriangles(const PatchDraft& draft, PatchMesh& mesh) {
   // There is room for one more, because every triangle is written whether it is kept or not: that needs no
   // branch, which could not be predicted.
   mesh.indices.resize(mesh.firstIndex[variants] + std::size_t{3});
-  mesh.heirs.resize(mesh.firstIndex[variants - 1] / 3 + std::size_t{1});
+  mesh.inherited.resize(mesh.firstIndex[variants - 1] / 3 + std::size_t{1});
   std::uint16_t* out = mesh.indices.data();
-  Heir* heir = mesh.heirs.data();
+  Inherited* inheritance = mesh.inherited.data();
   for (std::size_t v = 0; v < variants; ++v) {
     const PatchDraft::Variant& variant = draft.variants[v];
     const std::size_t count = variant.triangles.size() / 3;
     const bool coarsest = v + 1 == variants;
-    const Heir* const heirs = draft.variants[coarsest ? v : v + 1].heirs.data();
+    const Inherited* const inherited = draft.variants[coarsest ? v : v + 1].inherited.data();
     for (const std::int32_t h : draft.order) {
       const auto t = static_cast<std::size_t>(h >> 2);
       const std::size_t is = t < count, at = t * is;
@@ -39,12 +39,12 @@ void addTriangles(const PatchDraft& draft, PatchMesh& mesh) {
       out[1] = static_cast<std::uint16_t>(corner[Triangulation::next(i)]);
       out[2] = static_cast<std::uint16_t>(corner[Triangulation::before(i)]);
       out += 3 * is;
-      *heir = heirs[at];
-      heir += coarsest ? 0 : is;
+      *inheritance = inherited[at];
+      inheritance += coarsest ? 0 : is;
     }
   }
   mesh.indices.resize(mesh.firstIndex[variants]);
-  mesh.heirs.resize(mesh.firstIndex[variants - 1] / 3);
+  mesh.inherited.resize(mesh.firstIndex[variants - 1] / 3);
 }
 
 }  // namespace

@@ -18,14 +18,14 @@ static_assert(kMostVertices >= (kCoarseLeafCells + 1) * (kCoarseLeafCells + 2) /
 void findFresh(PatchDraft::Variant& of, const PatchDraft::Variant* finer) {
   const std::size_t triangles = of.triangles.size() / 3;
   of.fresh.resize(triangles);
-  of.heirs.assign(finer != nullptr ? finer->triangles.size() / 3 : triangles, Heir::none);
+  of.inherited.assign(finer != nullptr ? finer->triangles.size() / 3 : triangles, Inherited::none);
   std::size_t count = 0;
   for (std::uint32_t t = 0; t < triangles; ++t) {
     const std::uint32_t* const c = &of.triangles[3 * std::size_t{t}];
     const std::uint32_t* const f = finer != nullptr ? &finer->triangles[3 * std::size_t{t}] : nullptr;
     const bool fresh = f == nullptr || ((c[0] ^ f[0]) | (c[1] ^ f[1]) | (c[2] ^ f[2])) != 0;
     of.fresh[count] = t;
-    of.heirs[t] = fresh ? Heir::other : Heir::same;
+    of.inherited[t] = fresh ? Inherited::other : Inherited::same;
     count += fresh ? 1 : 0;
   }
   of.fresh.resize(count);

@@ -27,8 +27,8 @@ struct PatchDraft {
     std::vector<std::uint32_t> triangles;  ///< three vertices per triangle
     std::vector<std::int32_t> twins;       ///< as PolygonMesher::triangles gives them
     std::vector<std::uint32_t> fresh;      ///< triangles that the next finer variant does not have
-    std::vector<Heir> heirs;    ///< per triangle of the next finer variant, what this one has there; all
-                                ///< `other` in the finest
+    std::vector<Inherited> inherited;  ///< per triangle of the next finer variant, what this one has there;
+                                       ///< all `other` in the finest
     double worst = 0, rms = 0;  ///< errors along the plane's normal, at the posts that it was meshed on
   };
   std::vector<Variant> variants;  ///< from the finest, as many as the index has

@@ -112,10 +112,10 @@ TEST_F(Experiment, cullingOverImageryDrawsEveryPictureAsWithoutIt) {
 
 TEST_F(Experiment, headMotionMeasuresOnlyFormsThatTheTerrainHas) {
   experiment::Setup asked = setup();
-  asked.parameters.staticLod.terrain = TerrainForm::static_trees;
-  EXPECT_EQ(formsOf(asked), std::vector{TerrainForm::levels}) << "there are no trees";
-  asked.parameters.staticLod.terrain = TerrainForm::patches;
-  EXPECT_EQ(formsOf(asked), (std::vector{TerrainForm::patches, TerrainForm::levels}));
+  asked.parameters.terrain.form = TerrainForm::static_trees;
+  EXPECT_EQ(formsOf(asked), std::vector{TerrainForm::tiles}) << "there are no trees";
+  asked.parameters.terrain.form = TerrainForm::patches;
+  EXPECT_EQ(formsOf(asked), (std::vector{TerrainForm::patches, TerrainForm::tiles}));
 }
 
 TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked) {
@@ -149,25 +149,6 @@ TEST_F(Experiment, headMotionLowersTheLevelInTheSweepAndRestoresItOnlyWhenAsked)
   EXPECT_EQ(rows.number(blurred, "before"), 0);
   EXPECT_GT(rows.number(blurred, "with_restoration"), 0);
   EXPECT_LE(rows.number(blurred, "hold"), rows.number(blurred, "with_restoration"));
-}
-
-TEST_F(Experiment, aDecisionForEachNodeTestsFewerNodesAndChangesNoPixel) {
-  const auto report = runCullingPerNode(setup());
-  ASSERT_TRUE(report) << toString(report.findings());
-  const Table& rows = report->measured;
-  ASSERT_EQ(rows.rows.size(), 16u);
-  for (std::size_t row = 0; row < rows.rows.size(); row += 2) {
-    EXPECT_EQ(rows.text(row, "decision"), "frame");
-    EXPECT_EQ(rows.text(row + 1, "decision"), "node");
-    EXPECT_EQ(rows.number(row, "differing_pixels"), 0) << row;
-    EXPECT_EQ(rows.number(row + 1, "differing_pixels"), 0) << row;
-    EXPECT_GT(rows.number(row, "frame_ms"), 0);
-    // The eye is higher above the sea than above the ground, so the frame never asks for the larger map.
-    EXPECT_GE(rows.number(row + 1, "map_texels"), rows.number(row, "map_texels")) << row;
-  }
-  ASSERT_EQ(report->plots.size(), 2u);
-  EXPECT_EQ(report->plots[1].categories.size(), 8u);
-  for (const auto& series : report->plots[1].series) EXPECT_EQ(series.y.size(), 8u);
 }
 
 TEST_F(Experiment, aHostOfAnyRateIsMetInTheSweepWhereImagesAreCounted) {
@@ -321,8 +302,8 @@ TEST_F(Experiment, weatherUnderABudgetKeepsWhatFitsAndLowersWhatDoesNot) {
 }
 
 TEST_F(Experiment, stopsWhereItIsTold) {
-  for (const auto& run : {&runCulling, &runCullingPerNode, &runHeadMotion, &runHeadMotionVarying, &runWeather,
-                          &runWeatherProtocol}) {
+  for (const auto& run :
+       {&runCulling, &runHeadMotion, &runHeadMotionVarying, &runWeather, &runWeatherProtocol}) {
     int told = 0;
     experiment::Setup asked = setup();
     asked.progress = [&](double fraction, const std::string& what) {

@@ -91,11 +91,11 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
          foggy(r);
          r.levers.drawn.occlusion = OcclusionResolution{400, 300};
        }},
-      {"trees", [](FrameRequest& r) { r.staticLod.terrain = TerrainForm::static_trees; }},
+      {"trees", [](FrameRequest& r) { r.terrain.form = TerrainForm::static_trees; }},
       {"trees in fog",
        [](FrameRequest& r) {
          foggy(r);
-         r.staticLod.terrain = TerrainForm::static_trees;
+         r.terrain.form = TerrainForm::static_trees;
        }},
   };
   use(std::make_shared<const test::TreeTerrain>(test::syntheticMountains()));

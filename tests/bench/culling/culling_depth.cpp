@@ -249,7 +249,7 @@ void methodRows(Report& report) {
   BenchScene scene(database);
   if (!scene.ready()) return;
   auto r = scene.request();
-  r.method = CullingCase::proposed;
+  r.cullingCase = CullingCase::proposed;
   r.levers.drawn.occlusion = OcclusionResolution{640, 480};
   const auto cost = [&](OcclusionMethod method) {
     return [&scene, &r, method](int i) {

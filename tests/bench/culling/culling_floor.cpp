@@ -44,7 +44,7 @@ class Floor {
 
   /// A place's frames, one of each way in turn; whether all that owners draw is the whole picture.
   bool measure(FrameRequest r, int pairs) {
-    r.method = CullingCase::view_frustum;
+    r.cullingCase = CullingCase::view_frustum;
     oracle_.letAll();
     renderer_.draw(r, context_.framebuffer());
     oracle_.learn(kWidth, kHeight);
@@ -73,7 +73,7 @@ class Floor {
 
  private:
   double draw(FrameRequest r, const Way& way) {
-    if (way.what == Way::What::proposed) r.method = CullingCase::proposed;
+    if (way.what == Way::What::proposed) r.cullingCase = CullingCase::proposed;
     if (way.what == Way::What::sky) r.attitude.pitch = Degrees{85};
     if (way.what == Way::What::owners)
       oracle_.letOwners(way.blocksAcross);
@@ -109,7 +109,7 @@ void floorRow(Report& report, const std::string& terrain,
     r.eye = placeOver(*database, east, north, 2000 * 0.3048);
     r.view.widthPx = kWidth, r.view.heightPx = kHeight;
     r.levers.drawn.errorPx = errorPx;
-    r.staticLod.terrain = form;
+    r.terrain.form = form;
     r.waitForPages = true;
     r.occlusion = OcclusionMethod::horizon;
     r.levers.drawn.occlusion = OcclusionResolution{800, 600};
@@ -142,7 +142,7 @@ void floorRow(Report& report, const std::string& terrain,
 
 void floorRows(Report& report, const std::string& terrain,
                const std::shared_ptr<const terrain::Database>& database) {
-  for (const TerrainForm form : {TerrainForm::levels, TerrainForm::patches}) {
+  for (const TerrainForm form : {TerrainForm::tiles, TerrainForm::patches}) {
     if (form == TerrainForm::patches && !database->patches()) continue;
     for (const double errorPx : {2.0, 0.05}) floorRow(report, terrain, database, form, errorPx);
   }

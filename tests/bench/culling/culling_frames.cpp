@@ -76,7 +76,7 @@ class Frames {
         FrameResult plain, ours;
         // Each comes first as often: the first frame at a place is not like the second.
         for (const bool proposing : {i % 2 != 0, i % 2 == 0}) {
-          r.method = proposing ? CullingCase::proposed : CullingCase::view_frustum;
+          r.cullingCase = proposing ? CullingCase::proposed : CullingCase::view_frustum;
           draw(r);
           (proposing ? ours : plain) = last_;
         }

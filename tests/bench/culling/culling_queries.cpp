@@ -54,7 +54,7 @@ class Queries {
       r.eye = placeOver(*database_, east, north, feet * kMetresAFoot);
       r.attitude = {Degrees{heading(random)}, Degrees{-5}, Degrees{0}};
       r.view.widthPx = kWidth, r.view.heightPx = kHeight;
-      r.method = CullingCase::proposed;
+      r.cullingCase = CullingCase::proposed;
       // All surfaces that may hide others at once: the peer has its scene whole too.
       r.reproducible = true;
       r.levers.drawn.errorPx = kErrorPx;

@@ -17,6 +17,7 @@
 
 #include "core/scene/gl/frame_buffer.h"
 #include "core/scene/passes/weather_air.h"
+#include "core/scene/shaders/light.h"
 #include "core/scene/shaders/shaders.h"
 #include "core/scene/terrain/tiles/tile_cache.h"
 #include "osg_view.h"
@@ -129,11 +130,10 @@ struct QueryPeers::Impl {
     state->addUniform(new osg::Uniform("slots", scene::kSlotUnit));
     state->addUniform(new osg::Uniform("tints", scene::kTintUnit));
     // OSG culls in the terrain's frame, the vertices are relative to the eye.
-    const scene::ShaderPair shaders = scene::terrainShaders(TerrainForm::levels);
-    const std::string vertex =
-        replaced(replaced(shaders.vertex, "gl_ModelViewProjectionMatrix *", "relativeView *"),
-                 "in vec3 vertexPosition;", "uniform mat4 relativeView;\nin vec3 vertexPosition;");
-    terrain->setAttributeAndModes(makeProgram(vertex, shaders.fragment.c_str()));
+    const std::string vertex = replaced(
+        replaced(scene::shaderText("terrain.vert.glsl"), "gl_ModelViewProjectionMatrix *", "relativeView *"),
+        "in vec3 vertexPosition;", "uniform mat4 relativeView;\nin vec3 vertexPosition;");
+    terrain->setAttributeAndModes(makeProgram(vertex, scene::shaderText("terrain.frag.glsl").c_str()));
     terrain->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
     queries = new Call({}, [this](osg::State& s) { drawByQueries(s); });
     queries->setStateSet(terrain);

@@ -4,9 +4,9 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_program.h"
+#include "core/scene/shaders/light.h"
 #include "core/scene/shaders/shaders.h"
 #include "core/scene/terrain/ground/ground_texture.h"
-#include "core/scene/terrain/ground/sun.h"
 #include "tests/bench/row.h"
 #include "tests/core/terrain/ground/build_and_open.h"
 #include "tests/support.h"
@@ -121,9 +121,9 @@ void measureDrawing(Report& report, const std::shared_ptr<const GroundPyramid>& 
   constexpr int kWidth = 1280, kHeight = 720;
   auto offscreen = scene::Offscreen::create(kWidth, kHeight);
   if (!offscreen) return;
-  const unsigned byVertex = programOf(true, scene::terrainShaders(TerrainForm::levels).fragment);
+  const unsigned byVertex = programOf(true, scene::shaderText("terrain.frag.glsl"));
   const std::string ofTexels =
-      with(scene::terrainShaders(TerrainForm::patches).fragment, "#define GROUND_TEXTURE 1");
+      with(scene::shaderText("patch.frag.glsl"), "#define GROUND_TEXTURE 1");
   const unsigned byTexel = programOf(false, ofTexels);
   const unsigned inFog = programOf(false, with(ofTexels, "#define IN_WEATHER 1"));
   const unsigned plain = programOf(true,

@@ -56,7 +56,7 @@ struct Course {
     r.eye.longitude = from.longitude + perMetre * metres;
     r.attitude = {Degrees{90}, Degrees{-6}, Degrees{0}};
     r.velocity = Velocity{MetresPerSecond{0}, MetresPerSecond{kSpeed}, MetresPerSecond{0}};
-    r.staticLod.terrain = TerrainForm::patches;
+    r.terrain.form = TerrainForm::patches;
     r.terrain.cache = Megabytes{kBudgetMb};
     r.levers.drawn.errorPx = 2;
     return r;

@@ -58,7 +58,7 @@ class PatchRoom : public testing::TestWithParam<std::size_t> {
 
   /// Whether the ground behind is said to be hidden: by the ridge as a whole, and then by its halves, 8 m
   /// lower.
-  std::array<bool, 2> isHidden(const Errors& surfaceErrorM, bool takesRoom = true) {
+  std::array<bool, 2> isHidden(const Errors& surfaceErrorM, bool replacementsStayNear = true) {
     const SurfaceTree tree = SurfaceTree::of(index_, surfaceErrorM);
     MovingHorizon moving;
     std::array<bool, 2> hidden{};
@@ -71,7 +71,7 @@ class PatchRoom : public testing::TestWithParam<std::size_t> {
                          .tiles = cut,
                          .errorOverDistance = 0.000505,
                          .settings = {.columns = 512},
-                         .takesRoom = [&](std::uint32_t) { return takesRoom; }},
+                         .replacementsStayNear = [&](std::uint32_t) { return replacementsStayNear; }},
                         tree, [&](std::vector<HorizonTile>& tiles) {
                           for (const TileDraw& patch : cut)
                             tiles.push_back({.mayOcclude = true, .mesh = &relief_[patch.node]});

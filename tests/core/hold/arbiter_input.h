@@ -32,7 +32,7 @@ inline HoldGiven given(double timeS = 0) {
                                              .perWeatherMpx = 1,
                                              .perBlurMpx = 3,
                                              .other = 1};
-  g.cost.bandMs = 2;
+  g.cost.halfBandMs = 2;
   g.cost.known = true;
   return g;
 }

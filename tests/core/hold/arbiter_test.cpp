@@ -120,10 +120,10 @@ TEST(Arbiter, saysWhatEachLeverTakesOffAndTheyAddUp) {
 }
 
 TEST(Arbiter, leavesRoomForItsOwnUncertainty) {
-  const auto limitAt = [](double bandMs, double caution = enabled().caution.value()) {
+  const auto limitAt = [](double halfBandMs, double caution = enabled().caution.value()) {
     HoldGiven g = given();
     g.budgetMs = 30;
-    g.cost.bandMs = bandMs;
+    g.cost.halfBandMs = halfBandMs;
     HoldParameters p = enabled();
     p.caution = Ratio{caution};
     HoldMemory memory;

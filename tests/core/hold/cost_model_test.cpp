@@ -39,7 +39,7 @@ TEST(CostModel, predictsWhatItLearned) {
     if (i >= 200) {
       const double error = predictedMs(model, load) - cost.total;
       errors.push_back(std::abs(error) / cost.total);
-      covered += std::abs(error) <= model.coefficients(load).bandMs;
+      covered += std::abs(error) <= model.coefficients(load).halfBandMs;
     }
     model.observe(load, cost);
   }

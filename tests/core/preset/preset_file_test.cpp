@@ -155,7 +155,7 @@ TEST(PresetFile, keepsABrokenRuleAsADraftAndSaysSo) {
 TEST(PresetFile, readsAnOldVersionAndSaysWhatChanged) {
   const auto preset = loadPreset((data() / "old/version-1.json").string());
   ASSERT_TRUE(preset) << toString(preset.findings());
-  EXPECT_EQ(preset->parameters.culling.method, CullingCase::view_frustum);
+  EXPECT_EQ(preset->parameters.culling.cullingCase, CullingCase::view_frustum);
   EXPECT_EQ(preset->parameters.lod.screenSpaceError.value(), 4);
   EXPECT_EQ(preset->parameters.scheme.hysteresis.value(), 2.4 / 60);
   EXPECT_EQ(preset->parameters.altitude.curve.point[1], (CurvePoint{5200, 0.55}));

@@ -40,7 +40,7 @@ TEST(ShippedPresets, differWhereTheirNamesSay) {
   EXPECT_EQ(keys("default", "as-published"),
             (std::vector<std::string>{
                 "fuzzy.pitch.reading linear rounded_step", "fuzzy.hysteresis 0.05 0",
-                "culling.occlusion auto depth_map", "static_lod.terrain levels static_trees",
+                "culling.occlusion auto depth_map", "terrain.form tiles static_trees",
                 "static_lod.error rms as_published", "static_lod.map_from_triangles 30000 0",
                 "motion.frames host_states drawn", "motion.lod_step 2 1.2", "motion.lod_maximum 4 1.44",
                 "motion.blur_full_degps 0 180", "weather.precipitation_form bounded effect",

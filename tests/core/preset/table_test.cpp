@@ -82,7 +82,7 @@ TEST(ParameterTable, setsOneFieldAndLeavesTheOthers) {
 }
 
 // What the compiler is told of a table is tried here on tables that are wrong.
-constexpr std::array kComplete{table::row<&TuningParameters::culling, &CullingParameters::method>(
+constexpr std::array kComplete{table::row<&TuningParameters::culling, &CullingParameters::cullingCase>(
     {.key = "culling.case", .label = "l", .help = "h"})};
 constexpr auto kScale = table::row<&TuningParameters::lod, &LodParameters::scale>(
     {.key = "lod.scale", .label = "l", .help = "h", .hard = {0, 9}, .usual = {0, 9}});

@@ -59,7 +59,7 @@ class AsPublished : public test::SceneTest {
       session.receive(std::vector{ReceivedState{state, state.time, state.time}});
       FrameRequest r = *session.request(state.time, kWidth, kHeight);
       if (i < kStill + kDwell || i % kDrawnEach != 0) continue;
-      r.staticLod.terrain = TerrainForm::levels;
+      r.terrain.form = TerrainForm::tiles;
       r.levers.drawn.blurStrength = 0;
       r.waitForPages = true;
       vertices += double(renderer.draw(r, offscreen->framebuffer()).visible.vertices);
@@ -80,10 +80,10 @@ TEST_F(AsPublished, testsStaticTreesAndLeavesOutWhatIsHiddenWithoutAPixelChanged
     FrameRequest r = requestAt(stateAt(*flight, flight->beginS() + part * flight->durationS()));
     dynamic += r.levers.drawn.occlusion.has_value();
     FrameResult whole, culled;
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     const auto unculled = picture(r, &whole);
     ASSERT_TRUE(whole.staticLod.drawn);
-    r.method = CullingCase::proposed;
+    r.cullingCase = CullingCase::proposed;
     EXPECT_EQ(differing(unculled, picture(r, &culled)), 0u) << "view " << i;
     tested += culled.depthMap.has_value();
     hidden += culled.visible.occluded;

@@ -28,7 +28,7 @@ class Renderer : public SceneTest {
                          {Degrees{above}, Degrees{-90 + above / 200}, Degrees{error}});
         r.overlays.showHoles = true;
         r.levers.drawn.errorPx = error;
-        r.method = CullingCase::proposed;
+        r.cullingCase = CullingCase::proposed;
         r.levers.drawn.occlusion = OcclusionResolution{320, 240};
         FrameResult result;
         EXPECT_EQ(magenta(picture(r, &result)), 0u) << above << " m, " << error << " px";
@@ -91,7 +91,7 @@ TEST_F(Renderer, drawsIntoTheFramebufferItIsGiven) {
 TEST_F(Renderer, buildsAheadWhatAComingImageDraws) {
   use(test::syntheticMountains());
   auto r = request(over(0.5, 0.5, 400), {});
-  r.method = CullingCase::none;
+  r.cullingCase = CullingCase::none;
   const auto first = renderer.draw(r, offscreen->framebuffer());
   r.attitude.heading = Degrees{120};
   r.levers.drawn = withBudget(r.levers.drawn, {8, 1, 1, 1});
@@ -106,12 +106,12 @@ TEST_F(Renderer, buildsAheadWhatAComingImageDraws) {
   }();
   std::vector<std::uint32_t> nodes;
   for (const TileDraw& tile : expected.first.visible.tiles) nodes.push_back(tile.node);
-  const std::size_t lacking = renderer.buildAhead(nodes, 0).left;
-  EXPECT_GT(lacking, 10u);
+  const std::size_t missing = renderer.buildAhead(nodes, 0).left;
+  EXPECT_GT(missing, 10u);
   EXPECT_EQ(renderer.buildAhead(nodes, kNan).built, 0u);
   const scene::BuiltAhead some = renderer.buildAhead(nodes, 1e-6);
-  EXPECT_LT(some.built, lacking) << "a nanosecond is over before all are built";
-  EXPECT_EQ(some.built + some.left, lacking);
+  EXPECT_LT(some.built, missing) << "a nanosecond is over before all are built";
+  EXPECT_EQ(some.built + some.left, missing);
   EXPECT_EQ(renderer.buildAhead(nodes, 1e9).left, 0u);
   EXPECT_EQ(renderer.buildAhead(nodes, 1e9).built, 0u) << "they are there already";
   const auto second = renderer.draw(r, offscreen->framebuffer());

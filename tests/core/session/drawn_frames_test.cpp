@@ -49,7 +49,7 @@ std::vector<Image> fly(Session& session, double statesPerS, double silentAt = 5)
       const double arrival = nextState + kOffset;
       session.receive(std::vector{ReceivedState{headAt(nextState), arrival, arrival}});
     }
-    if (!session.needsPicture(time + kOffset)) continue;
+    if (!session.needsImage(time + kOffset)) continue;
     const auto request = session.request(time + kOffset, 640, 480);
     images.push_back({time, request->decision.motion});
     FrameResult result;

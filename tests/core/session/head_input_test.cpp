@@ -203,11 +203,11 @@ TEST(Session, countsABlurDownBetweenPacketsAndAsksForPicturesUntilItIsGone) {
   const double first = offset + 2.2;
   const auto drawn = [&](double now) { return session.request(now, 640, 480)->decision.motion.blur; };
   EXPECT_EQ(drawn(first).remainingMs, blurMs) << "from its first picture on";
-  EXPECT_TRUE(session.needsPicture(first)) << "the host is silent, but the blur is not over";
+  EXPECT_TRUE(session.needsImage(first)) << "the host is silent, but the blur is not over";
   EXPECT_NEAR(drawn(first + 0.05).remainingMs, blurMs - 50, 1e-6);
-  EXPECT_TRUE(session.needsPicture(first + 0.06));
+  EXPECT_TRUE(session.needsImage(first + 0.06));
   EXPECT_EQ(drawn(first + blurMs * 1e-3 + 0.001), MotionBlur{});
-  EXPECT_FALSE(session.needsPicture(first + 1));
+  EXPECT_FALSE(session.needsImage(first + 1));
   EXPECT_EQ(session.decision().motion.blur.remainingMs, blurMs) << "what was decided stays as it was decided";
 }
 

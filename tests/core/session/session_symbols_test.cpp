@@ -108,11 +108,11 @@ TEST(SessionSymbols, ofTheHostAskForAnImageWhenTheyFlash) {
     for (int i = 0; i < 20; ++i, rests.time += 0.02)
       session.receive(std::vector{ReceivedState{rests, 100 + i * 0.02, 100 + i * 0.02, flashing()}});
     EXPECT_TRUE(session.request(100.4, 640, 360)->symbology->dark.empty());
-    EXPECT_FALSE(session.needsPicture(100.45));
-    EXPECT_EQ(session.needsPicture(100.55), shown) << "dark from 50.5 s on";
+    EXPECT_FALSE(session.needsImage(100.45));
+    EXPECT_EQ(session.needsImage(100.55), shown) << "dark from 50.5 s on";
     const auto dark = session.request(100.55, 640, 360)->symbology->dark;
     EXPECT_EQ(dark, shown ? std::vector<std::uint16_t>{5} : std::vector<std::uint16_t>{});
-    EXPECT_FALSE(session.needsPicture(100.6));
+    EXPECT_FALSE(session.needsImage(100.6));
   }
 }
 

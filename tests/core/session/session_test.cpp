@@ -107,7 +107,7 @@ TEST(Session, anEditHoldsAtOnceForThePictureAndFromTheNextPacketOnForTheTrace) {
     p.altitude.curve.point[1].y = 0.35;
   }));
   EXPECT_DOUBLE_EQ(session.decision().totalMembership, 0.35 + 0.5);
-  EXPECT_TRUE(session.needsPicture(1001));
+  EXPECT_TRUE(session.needsImage(1001));
   EXPECT_EQ(session.packets(), 1u);
   EXPECT_EQ(session.memory().band, 2) << "of the packet, not of the edit";
   session.receive(std::vector{packet(stateAt(2, 5000, 0))});
@@ -222,16 +222,16 @@ TEST(Session, theEyeMovesOnBetweenPacketsAndTheDecisionDoesNot) {
   const auto longitude = [&](double now) { return session.request(now, 640, 480)->eye.longitude.value(); };
   EXPECT_NEAR(longitude(last + 0.1), 128.3 + 1.1e-4, 1e-9);
   EXPECT_NEAR(longitude(last + 0.4), 128.3 + 1.4e-4, 1e-9);
-  EXPECT_TRUE(session.needsPicture(last + 0.45));
+  EXPECT_TRUE(session.needsImage(last + 0.45));
   // It stands still where the silence began, and nothing is drawn any more.
   EXPECT_NEAR(longitude(last + 0.7), 128.3 + 1.5e-4, 1e-9);
-  EXPECT_FALSE(session.needsPicture(last + 0.8));
+  EXPECT_FALSE(session.needsImage(last + 0.8));
   EXPECT_EQ(session.decision(), decision);
 
   session.setParameters(with([](TuningParameters& p) { p.host.extrapolate = false; }));
-  EXPECT_TRUE(session.needsPicture(last + 0.1));
+  EXPECT_TRUE(session.needsImage(last + 0.1));
   EXPECT_DOUBLE_EQ(longitude(last + 0.1), 128.3 + 1e-4);
-  EXPECT_FALSE(session.needsPicture(last + 0.2));
+  EXPECT_FALSE(session.needsImage(last + 0.2));
 }
 
 TEST(Session, jitterOfArrivalHardlyMovesTheEye) {
@@ -310,7 +310,7 @@ TEST(Session, aFreeCameraLeavesNoMarkOnThePackets) {
   const std::vector<AircraftState> states = wanderingStates(300);
   for (std::size_t i = 0; i < states.size(); ++i) {
     session.look(states[states.size() - 1 - i]);
-    EXPECT_TRUE(session.needsPicture(1000));
+    EXPECT_TRUE(session.needsImage(1000));
     session.receive(std::vector{packet(states[i])});
     reference.receive(std::vector{packet(states[i])});
     ASSERT_EQ(session.decision(), reference.decision()) << i;

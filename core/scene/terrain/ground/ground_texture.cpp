@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/scene/gl/gl_api.h"
+#include "core/scene/shaders/shared_constants.h"
 #include "ground_tiles.h"
 
 namespace trimtab::scene {
@@ -18,7 +19,7 @@ namespace {
 constexpr int kTile = static_cast<int>(terrain::GroundShape::kTile);
 /// A side of the square block that is uploaded at a time, texels.
 constexpr int kBlock = 64;
-constexpr int kBlocks = GroundTexture::kSide / kBlock;
+constexpr int kBlocks = kGroundSide / kBlock;
 constexpr std::size_t kBlockBytes = std::size_t{kBlock} * kBlock * 4;
 /// A level that is there for fewer texels than this about the eye is not used yet.
 constexpr double kLeastReach = 256;
@@ -244,7 +245,7 @@ void GroundTexture::setGround(std::shared_ptr<const terrain::GroundPyramid> grou
   if (my.texture != 0) return;
   glGenTextures(1, &my.texture);
   glBindTexture(GL_TEXTURE_2D_ARRAY, my.texture);
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA8, kSide, kSide, static_cast<GLsizei>(wanted));
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA8, kGroundSide, kGroundSide, static_cast<GLsizei>(wanted));
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_REPEAT);
@@ -310,7 +311,7 @@ void GroundTexture::unbind() const {
 }
 
 std::size_t GroundTexture::bytes() const {
-  return impl_->levels.size() * kSide * kSide * 4 + (impl_->tiles ? impl_->tiles->bytes() : 0);
+  return impl_->levels.size() * kGroundSide * kGroundSide * 4 + (impl_->tiles ? impl_->tiles->bytes() : 0);
 }
 std::uint64_t GroundTexture::bytesUploaded() const {
   return impl_->uploaded;

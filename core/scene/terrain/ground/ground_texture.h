@@ -10,14 +10,13 @@ namespace trimtab::scene {
 /// Texture unit of the ground (core/scene/shaders/ground_colour.glsl).
 constexpr int kGroundUnit = 8;
 
-/// Keeps the ground's colours and light around the eye on the GPU: one layer of kSide x kSide texels per
-/// level, each centred at the eye and filled as it moves on (a clip map). The next coarser level shows where
-/// one is not filled yet. One texture serves a terrain of any size.
+/// Keeps the ground's colours and light around the eye on the GPU: one layer of kGroundSide x kGroundSide
+/// texels per level, each centred at the eye and filled as it moves on (a clip map). The next coarser level
+/// shows where one is not filled yet. One texture serves a terrain of any size.
 ///
 /// All calls except the constructor need the context current.
 class GroundTexture {
  public:
-  static constexpr int kSide = 1024;
   static constexpr int kLevels = 16;  ///< as many as there may be
 
   GroundTexture();

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "sun.h"
+#include "core/scene/shaders/light.h"
 #include "trimtab/terrain/grid/background_thread.h"
 
 namespace trimtab::scene {

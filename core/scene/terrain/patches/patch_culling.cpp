@@ -81,7 +81,7 @@ struct PatchCulling::Impl {
   CutNumber number;
   PatchCut later;  ///< where the eye will be
   std::optional<Vec3> laterEye;
-  std::vector<PageWant> laterWants, lacking;
+  std::vector<PageWant> laterWants, missing;
   std::vector<std::uint32_t> mustHave;
   std::size_t waiting = 0;
   Defects defects;
@@ -121,9 +121,9 @@ void PatchCulling::setTerrain(std::shared_ptr<const terrain::PatchTerrain> terra
   m.pager = terrain::Pager::start(m.terrain);
   for (std::uint32_t page = 0; page < roots; ++page) {
     m.roots.push_back(page);
-    m.lacking.push_back({page, std::numeric_limits<float>::infinity()});
+    m.missing.push_back({page, std::numeric_limits<float>::infinity()});
   }
-  m.pager->want(m.lacking);
+  m.pager->want(m.missing);
 }
 
 void PatchCulling::plant(const Defects& defects) {
@@ -275,11 +275,11 @@ void PatchCulling::Impl::select(const CutKey& wanted, PatchCut& cut) {
 }
 
 void PatchCulling::Impl::ask() {
-  const bool asked = !lacking.empty();
-  lacking.clear();
+  const bool asked = !missing.empty();
+  missing.clear();
   for (const PageWant& want : pages.aims())
-    if (!pages.holds(want.page)) lacking.push_back(want);
-  if (asked || !lacking.empty()) pager->want(lacking);
+    if (!pages.holds(want.page)) missing.push_back(want);
+  if (asked || !missing.empty()) pager->want(missing);
 }
 
 PatchCulling::Paged PatchCulling::page(const FrameRequest& request, const EyePose& eye, PatchLayer& layer) {
@@ -292,7 +292,7 @@ PatchCulling::Paged PatchCulling::page(const FrameRequest& request, const EyePos
   done.cutsSelected += m.choose(request, eye, cut_);
   if (request.waitForPages) {
     m.mustHave.clear();
-    for (const PageWant& want : m.lacking) m.mustHave.push_back(want.page);
+    for (const PageWant& want : m.missing) m.mustHave.push_back(want.page);
     if (!m.mustHave.empty()) {
       m.takeAll(m.mustHave, layer);
       done.cutsSelected += m.choose(request, eye, cut_);

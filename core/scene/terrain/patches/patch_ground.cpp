@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/scene/terrain/triangle_height.h"
+#include "core/scene/surface/triangle_height.h"
 
 namespace trimtab::scene {
 namespace {
@@ -97,7 +97,8 @@ void PatchGround::make(const terrain::PatchMesh& mesh, TileDraw patch, Surface& 
   makeRelief(mesh, patch.variant.number, vertices_, surface.relief);
   // Errors are along the ellipsoid's verticals: what is so far above or below this surface along one that
   // leans is half as much again along z at most, if the surface rises no more than that beside it.
-  surface.takesRoom = isGentle(surface.relief.bounds, surface.relief.origin, surface.relief.steepest);
+  surface.replacementsStayNear =
+      isGentle(surface.relief.bounds, surface.relief.origin, surface.relief.steepest);
   const PatchIndex& index = patches_.index();
   surface.inside = std::all_of(vertices_.begin(), vertices_.end(), [&](const ReliefVertex& v) {
     const std::uint32_t column = mesh.firstColumn + v.column, row = mesh.firstRow + v.row;
@@ -112,15 +113,15 @@ const PatchGround::Surface* PatchGround::surfaceOf(TileDraw patch) const {
 }
 
 std::size_t PatchGround::makeSurfaces(Vec3 eye) {
-  const auto lacks = [this](TileDraw patch) { return !surfaceOf(patch) && patches_.meshOf(patch.node); };
+  const auto misses = [this](TileDraw patch) { return !surfaceOf(patch) && patches_.meshOf(patch.node); };
   const auto makeNearest = [&](const auto& which) {
     return share().makeNearest(cut().tiles, patches_.index().bounds, eye, which, [this](TileDraw patch) {
       make(*patches_.meshOf(patch.node), patch, surfaces_.make(patch.node));
     });
   };
   // While one may hang over, none hides anything: so surfaces that alone can show it are made first.
-  makeNearest([&](TileDraw patch) { return !normalsRise(patch.node) && lacks(patch); });
-  return makeNearest(lacks);
+  makeNearest([&](TileDraw patch) { return !normalsRise(patch.node) && misses(patch); });
+  return makeNearest(misses);
 }
 
 const PatchGround::Surface* PatchGround::surfaceUnder(TileDraw patch) {
@@ -162,15 +163,16 @@ void PatchGround::fill(std::vector<HorizonTile>& tiles) {
   for (const TileDraw& patch : cut().tiles) {
     const Surface* surface = surfaceOf(patch);
     tiles.push_back({.mayOcclude = surface && surface->inside, .mesh = surface ? &surface->relief : nullptr});
-    // A lid beside another variant's surface would be judged by that surface (takesRoom), so there is none.
+    // A lid beside another variant's surface would be judged by that surface (replacementsStayNear), so there
+    // is none.
     if (!surfaces_.find(patch.node))
       tiles.back().mesh = lids_.of(patch.node, patches_.index().bounds[patch.node]);
   }
 }
 
 /// A patch without a surface is judged by the cone of its normals.
-bool PatchGround::takesRoom(std::uint32_t node) const {
-  if (const Surface* surface = surfaces_.find(node)) return surface->takesRoom;
+bool PatchGround::replacementsStayNear(std::uint32_t node) const {
+  if (const Surface* surface = surfaces_.find(node)) return surface->replacementsStayNear;
   const PatchIndex& index = patches_.index();
   if (normalsRise_[node] != 2) return false;
   const double steepest = std::acos(index.cones[node].axis().z) + std::asin(index.cones[node].sine());

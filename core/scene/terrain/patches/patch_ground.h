@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/scene/occlusion/occlusion_ground.h"
+#include "core/scene/surface/surfaces_in_use.h"
 #include "core/scene/terrain/box_lids.h"
-#include "core/scene/terrain/surfaces_in_use.h"
 #include "patch_culling.h"
 #include "patch_map.h"
 #include "trimtab/scene/data_extent.h"
@@ -30,7 +30,7 @@ class PatchGround final : public OcclusionGround {
   void fill(std::vector<HorizonTile>& tiles) override;
   SurfaceTree tree() const override { return SurfaceTree::of(patches_.index(), surfaceErrorM_); }
   bool mayOcclude(std::uint32_t node) override;
-  bool takesRoom(std::uint32_t node) const override;
+  bool replacementsStayNear(std::uint32_t node) const override;
   void forgetOthers() override {
     surfaces_.forgetOthers(cut());
     lids_.forgetOthers(cut());
@@ -48,7 +48,7 @@ class PatchGround final : public OcclusionGround {
     MeshRelief relief;
     std::uint8_t variant = 0;
     bool inside = false;  ///< so far inside the data that no ray to it leaves the data
-    bool takesRoom = false;
+    bool replacementsStayNear = false;
   };
   /// Returns the surface of a patch; null if it is not made.
   const Surface* surfaceOf(TileDraw patch) const;

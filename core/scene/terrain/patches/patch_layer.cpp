@@ -5,6 +5,7 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_buffer.h"
+#include "core/scene/shaders/shared_constants.h"
 
 namespace trimtab::scene {
 namespace {
@@ -21,7 +22,7 @@ static_assert(sizeof(SlotData) == 32);
 constexpr MeshPool::Layout kPatchLayout{.vertexBytes = sizeof(PatchVertex),
                                         .indexBytes = sizeof(std::uint16_t),
                                         .slotBytes = sizeof(SlotData),
-                                        .block = PatchLayer::kBlock,
+                                        .block = kPatchBlock,
                                         .indexBlock = 32,
                                         .leastBlocks = 1024,
                                         .leastIndexBlocks = 2048,

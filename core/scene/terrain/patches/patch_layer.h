@@ -35,9 +35,8 @@ class PatchLayer {
   /// Draws patches in order. The program in use reads attributes 0 position, 1 normal, 2 the post (column,
   /// row) in its square. Patches whose page is not there are left out.
   void draw(std::span<const TileDraw> patches);
-  /// RGBA32I, two texels per block of kBlock vertices: origin in units of 16 m and patch; first column and
-  /// row of the square.
-  static constexpr int kBlock = 32;
+  /// RGBA32I, two texels per block of kPatchBlock vertices: origin in units of 16 m and patch; first column
+  /// and row of the square.
   unsigned slotTexture() const { return pool_.slotTexture(); }
   /// Sets the colours (RGBA8) that `tintTexture` has by block.
   void setTints(std::span<const TileDraw> patches, std::span<const std::uint32_t> colours);

@@ -206,7 +206,7 @@ bool PatchMapCulling::takeInNeighbours(const PatchCulling& patches, Vec3 eye, Su
   surfaces_.forgetOthers(patches.cut());
   const std::vector<TileDraw>& cut = patches.cut().tiles;
   const std::vector<Box>& bounds = patches.index().bounds;
-  const std::size_t lacking = share.makeNearest(
+  const std::size_t missing = share.makeNearest(
       cut, bounds, eye, [&](TileDraw patch) { return !surfaceOf(patch) && patches.meshOf(patch.node); },
       [&](TileDraw patch) { make(patches, patch); });
   places_.clear();
@@ -245,7 +245,7 @@ bool PatchMapCulling::takeInNeighbours(const PatchCulling& patches, Vec3 eye, Su
     for (const std::uint32_t i : surface->border)
       surface->mesh.slope[i] = std::max(surface->slope[i], around);
   }
-  return lacking == 0;
+  return missing == 0;
 }
 
 std::span<const std::uint8_t> PatchMapCulling::hidden(const PatchCulling& patches, std::uint64_t cut,

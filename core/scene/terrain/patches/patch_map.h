@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/scene/occlusion/map_culling.h"
-#include "core/scene/terrain/surfaces_in_use.h"
+#include "core/scene/surface/surfaces_in_use.h"
 #include "patch_culling.h"
 #include "trimtab/scene/data_extent.h"
 

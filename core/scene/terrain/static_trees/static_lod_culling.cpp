@@ -54,8 +54,7 @@ const StaticLodIndex& StaticLodCulling::index() const {
 FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePose& eye) {
   FrameCounters counters;
   const ViewShape& v = request.view;
-  TreeCutKey key{eye.position, request.staticLod.error, staticLodRuleOf(request),
-                 request.overlays.treeDepth};
+  TreeCutKey key{eye.position, request.staticLod.error, staticLodRuleOf(request), request.overlays.treeDepth};
   key.rule.distancePerError *= defects_.statedErrorScale;
   if (cutKey_ != key || !request.skips.sameCut) {
     if (key.depth >= 0)
@@ -70,21 +69,15 @@ FrameCounters StaticLodCulling::select(const FrameRequest& request, const EyePos
     ++counters.cutsSelected;
   }
   const double farM = farCutM(request);
-  const VisibleKey wanted{key,
-                          eye,
-                          v,
-                          request.method,
-                          request.levers.drawn.occlusion,
-                          farM,
-                          request.overlays.treePicture,
-                          request.testedWithinM};
+  const VisibleKey wanted{
+      key, eye, v, request.cullingCase, request.levers.drawn.occlusion, farM, request.overlays.treePicture};
   // Frozen, what was hidden from there stays hidden: the image is another eye's and cannot show what is
   // hidden from this one.
   if (visibleKey_ == wanted && (request.frozenEye || request.skips.sameVisible)) return counters;
   visibleKey_ = wanted;
   hiddenIsKnown_ = false;
   ++counters.visibleSelected;
-  selectVisible(cut_, {.eye = eye, .view = v, .cull = request.method != CullingCase::none, .farM = farM},
+  selectVisible(cut_, {.eye = eye, .view = v, .cull = request.cullingCase != CullingCase::none, .farM = farM},
                 visible_);
   if (defects_.culledNode) {
     flags_.clear();
@@ -149,7 +142,7 @@ std::uint64_t StaticLodCulling::hideableTriangles(Vec3 eye) const {
 OcclusionResult StaticLodCulling::occlusion(const FrameRequest& request) const {
   OcclusionResult result;
   const std::optional<OcclusionResolution>& size = request.levers.drawn.occlusion;
-  if (request.method != CullingCase::proposed || !size || request.overlays.treePicture) return {};
+  if (request.cullingCase != CullingCase::proposed || !size || request.overlays.treePicture) return {};
   if (request.frozenEye)
     result.note = "What is hidden stays as it was when culling was frozen.";
   else if (!hiddenIsKnown_ && static_cast<double>(hideableTriangles(visibleKey_->eye.position)) <
@@ -163,10 +156,7 @@ OcclusionResult StaticLodCulling::occlusion(const FrameRequest& request) const {
 
 void StaticLodCulling::removeHidden(const DepthPyramid& covered) {
   flags_.assign(visible_.tiles.size(), 0);
-  const double within2 = visibleKey_->testedWithinM * visibleKey_->testedWithinM;
   for (std::size_t i = visibleNear_; i < flags_.size(); ++i) {
-    if (!(distanceSquared(index().bounds[visible_.tiles[i].node], visibleKey_->eye.position) < within2))
-      continue;
     const std::span<const Box> parts = parts_.of(visible_.tiles[i].node);
     flags_[i] = std::all_of(parts.begin(), parts.end(), [&](const Box& part) {
       return covered.isHidden(part, visibleKey_->eye, visibleKey_->view);

@@ -75,7 +75,6 @@ class StaticLodCulling {
     std::optional<OcclusionResolution> map;
     double farM = 0;
     bool picture = false;
-    double testedWithinM = 0;
     friend bool operator==(const VisibleKey&, const VisibleKey&) = default;
   };
   std::optional<VisibleKey> visibleKey_;

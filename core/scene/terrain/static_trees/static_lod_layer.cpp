@@ -6,6 +6,7 @@
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_buffer.h"
+#include "core/scene/shaders/shared_constants.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 
 namespace trimtab::scene {
@@ -22,7 +23,7 @@ struct TexturedVertex {
 constexpr MeshPool::Layout kTreeLayout{.vertexBytes = sizeof(StaticLodVertex),
                                        .indexBytes = sizeof(std::uint32_t),
                                        .slotBytes = 4 * sizeof(std::int32_t),
-                                       .block = StaticLodLayer::kBlock,
+                                       .block = kTreeBlock,
                                        .indexBlock = 64,
                                        .leastBlocks = 4096,
                                        .leastIndexBlocks = 4096,

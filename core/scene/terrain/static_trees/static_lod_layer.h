@@ -51,7 +51,6 @@ class StaticLodLayer {
   /// Document E's image: faces light grey, edges red, locked edges black.
   void drawPicture(unsigned program, std::span<const TileDraw> nodes);
 
-  static constexpr int kBlock = 64;  ///< vertices a texel of slotTexture
   /// RGBA32I: the origin of the tile that a block of vertices is of.
   unsigned slotTexture() const { return pool_.slotTexture(); }
   std::size_t bytes() const { return pool_.bytes(); }  ///< of the tiles that are there

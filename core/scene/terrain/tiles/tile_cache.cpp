@@ -7,6 +7,7 @@
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_buffer.h"
 #include "core/scene/gl/mesh_pool.h"
+#include "core/scene/shaders/shared_constants.h"
 
 namespace trimtab::scene {
 namespace {
@@ -16,7 +17,7 @@ constexpr std::uint32_t kFirstSlots = 256;
 /// gets them.
 constexpr std::uint32_t kKeptSlots = 4096;
 constexpr std::size_t kVertexBytes = sizeof(terrain::TileVertex);
-constexpr std::size_t kSlotBytes = TileCache::kVerticesPerTile * kVertexBytes;
+constexpr std::size_t kSlotBytes = kTileVertices * kVertexBytes;
 constexpr std::size_t kOccluderBytes = kOccluderVertices * sizeof(OccluderVertex);
 constexpr std::size_t kPartBytes = kParts * sizeof(PartBox);
 
@@ -186,7 +187,7 @@ void TileCache::draw(std::span<const TileDraw> tiles) {
     for (const TileDraw& tile : tiles)
       if (const std::uint32_t slot = slotOfNode_[tile.node]; slot != kNoSlot) {
         const TileIndices::Range range = indices_.variant[tile.border.bits];
-        surface_.add(range.first, range.count, slot * kVerticesPerTile, tile.bothSides);
+        surface_.add(range.first, range.count, slot * kTileVertices, tile.bothSides);
       }
   surface_.draw(vertexArray_, GL_UNSIGNED_SHORT);
 }

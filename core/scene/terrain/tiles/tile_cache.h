@@ -8,7 +8,7 @@
 
 #include "core/scene/gl/multi_draw.h"
 #include "core/scene/occlusion/occluder.h"
-#include "tile_indices.h"
+#include "core/scene/surface/tile_indices.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/scene/built_ahead.h"
 #include "trimtab/terrain/format/database.h"
@@ -23,7 +23,6 @@ namespace trimtab::scene {
 /// All calls need the context current.
 class TileCache {
  public:
-  static constexpr int kVerticesPerTile = terrain::TileMesh::kSide * terrain::TileMesh::kSide;
   static constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
   TileCache();

@@ -48,7 +48,6 @@ PreparedTerrain TileDrawer::prepare(const FrameInProgress& frame) {
   prepared.depth = prepareDepthMap(r, prepared.occlusion.note);
   mapDrawn_ = prepared.depth.has_value();
   nearM_ = r.view.nearM;
-  testedWithinM_ = r.testedWithinM;
   frame.clock.lap(mapDrawn_ ? &FrameCost::occlusion : &FrameCost::select);
   if (mapDrawn_) prepared.occlusion.depthMap = occlusion_.resolution();
   prepared.counters = occlusion_.counters();
@@ -107,10 +106,6 @@ std::optional<DepthView> TileDrawer::prepareDepthMap(const FrameRequest& request
 
 void TileDrawer::removeHidden() {
   gl_->occlusion.test(gl_->tiles, flags_);
-  if (const double within2 = testedWithinM_ * testedWithinM_; std::isfinite(within2))
-    for (std::size_t i = 0; i < flags_.size(); ++i)
-      if (!(distanceSquared(database_->index().bounds[visible_.tiles[i].node], eye_.position) < within2))
-        flags_[i] = 0;
   removeOccluded(cut_, flags_, visible_);
   visible_.vertices = tileVertices(visible_);
 }

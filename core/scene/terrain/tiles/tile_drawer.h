@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/scene/occlusion/occlusion.h"
 #include "core/scene/occlusion/occlusion_stage.h"
 #include "core/scene/terrain/terrain_drawer.h"
+#include "core/scene/terrain/tiles/occlusion_pass.h"
 #include "tile_cache.h"
 #include "tile_ground.h"
 #include "trimtab/culling/cut_rule.h"
@@ -68,9 +68,8 @@ class TileDrawer final : public TerrainDrawer {
   std::vector<TileDraw> occluders_;  ///< drawn into the GPU's depth map
   std::vector<std::uint8_t> flags_;
   Defects defects_;
-  bool mapDrawn_ = false;     ///< by the GPU, in the last frame
-  double nearM_ = 1;          ///< of the last frame
-  double testedWithinM_ = 0;  ///< of this frame
+  bool mapDrawn_ = false;  ///< by the GPU, in the last frame
+  double nearM_ = 1;       ///< of the last frame
   std::unique_ptr<Gl> gl_;
 };
 

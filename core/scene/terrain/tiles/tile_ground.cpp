@@ -35,12 +35,12 @@ void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) 
   relief_.reset(database_ ? database_->index().size() : 0);
   lids_.reset(database_ ? database_->index().size() : 0);
   upright_.clear();
-  takesRoom_.clear();
+  replacementsStayNear_.clear();
   inCut_.clear();
   if (!database_) return;
   const TerrainIndex& index = database_->index();
   upright_.assign(index.size(), 0);
-  takesRoom_.assign(index.size(), 0);
+  replacementsStayNear_.assign(index.size(), 0);
   inCut_.assign(index.size(), 0);
   double lowest = 1e30, highest = -1e30;
   for (const Box& b : index.bounds) {
@@ -65,8 +65,8 @@ void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) 
     const auto isWhole = [&](std::uint32_t place, std::uint32_t posts) {
       return ((std::uint64_t{place} + 1) * TerrainIndex::kTileCells << index.level[node]) < posts;
     };
-    takesRoom_[node] = gentle && isWhole(i % level.columns, database_->info().columns) &&
-                       isWhole(i / level.columns, database_->info().rows);
+    replacementsStayNear_[node] = gentle && isWhole(i % level.columns, database_->info().columns) &&
+                                  isWhole(i / level.columns, database_->info().rows);
   }
 }
 

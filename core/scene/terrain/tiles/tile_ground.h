@@ -8,8 +8,8 @@
 #include "core/scene/occlusion/map_culling.h"
 #include "core/scene/occlusion/occlusion_conditions.h"
 #include "core/scene/occlusion/occlusion_ground.h"
+#include "core/scene/surface/surfaces_in_use.h"
 #include "core/scene/terrain/box_lids.h"
-#include "core/scene/terrain/surfaces_in_use.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::scene {
@@ -30,7 +30,7 @@ class TileGround final : public OcclusionGround {
   void fill(std::vector<HorizonTile>& tiles) override;
   SurfaceTree tree() const override { return SurfaceTree::of(database_->index()); }
   bool mayOcclude(std::uint32_t node) override { return upright_[node] != 0 && conditions_.mayOcclude(node); }
-  bool takesRoom(std::uint32_t node) const override { return takesRoom_[node] != 0; }
+  bool replacementsStayNear(std::uint32_t node) const override { return replacementsStayNear_[node] != 0; }
   void forgetOthers() override {
     relief_.forgetOthers(*cut_);
     lids_.forgetOthers(*cut_);
@@ -50,9 +50,9 @@ class TileGround final : public OcclusionGround {
   MapCulling map_;
   const LevelCut* cut_ = nullptr;
   const CutNumber* number_ = nullptr;
-  std::vector<std::uint8_t> upright_;    ///< per node: no place there has two heights
-  std::vector<std::uint8_t> takesRoom_;  ///< per node
-  SurfacesInUse<TileRelief> relief_;     ///< 15 KB each
+  std::vector<std::uint8_t> upright_;               ///< per node: no place there has two heights
+  std::vector<std::uint8_t> replacementsStayNear_;  ///< per node
+  SurfacesInUse<TileRelief> relief_;                ///< 15 KB each
   BoxLids lids_;
   std::vector<std::uint8_t> inCut_;  ///< per node, all 0 except during `fill`
   terrain::TileMesh mesh_;

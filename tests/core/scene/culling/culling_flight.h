@@ -30,11 +30,11 @@ class CullingFlight : public SceneTest {
     FrameResult frustum, proposed;
     r.levers.drawn.occlusion = size;
     r.occlusion = method_;
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     const auto whole = picture(r);
-    r.method = CullingCase::view_frustum;
+    r.cullingCase = CullingCase::view_frustum;
     const std::size_t frustumDiffers = differing(whole, picture(r, &frustum));
-    r.method = CullingCase::proposed;
+    r.cullingCase = CullingCase::proposed;
     tally.differing += differing(whole, picture(r, &proposed));
     EXPECT_EQ(frustumDiffers, 0u) << "view " << tally.views;
     EXPECT_LE(proposed.visible.tiles.size(), frustum.visible.tiles.size());

@@ -40,14 +40,14 @@ TEST_F(CullingPlaces, loseNothingAcrossTheDateLine) {
   TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest");
   useEverestAt(179.84, 50);
   ASSERT_LT(database->info().northEast.longitude, database->info().southWest.longitude);
-  prove({{TerrainForm::levels, 13}, {TerrainForm::patches, 12}}, 41);
+  prove({{TerrainForm::tiles, 13}, {TerrainForm::patches, 12}}, 41);
 }
 
 TEST_F(CullingPlaces, loseNothingBesideAPole) {
   TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest");
   useEverestAt(10, 89.6);
   ASSERT_GT(database->info().northEast.latitude, Degrees{89.9});
-  prove({{TerrainForm::levels, 13}, {TerrainForm::patches, 12}}, 51);
+  prove({{TerrainForm::tiles, 13}, {TerrainForm::patches, 12}}, 51);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ double between(std::mt19937& random, double low, double high) {
 
 FrameRequest CullingTruth::viewOf(const GeodeticPosition& eye, const Attitude& attitude) const {
   auto r = request(eye, attitude);
-  r.staticLod.terrain = form_;
+  r.terrain.form = form_;
   r.waitForPages = true;
   return r;
 }

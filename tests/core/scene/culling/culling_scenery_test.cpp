@@ -9,7 +9,7 @@ class CullingScenery : public test::CullingTruth {
   void proveAll(const char* folder, unsigned seed) {
     ASSERT_TRUE(useShared(folder));
     ASSERT_TRUE(database->staticLod());
-    prove({{TerrainForm::levels, 9}, {TerrainForm::patches, 8}, {TerrainForm::static_trees, 8}}, seed);
+    prove({{TerrainForm::tiles, 9}, {TerrainForm::patches, 8}, {TerrainForm::static_trees, 8}}, seed);
   }
 };
 

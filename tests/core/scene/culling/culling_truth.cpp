@@ -84,7 +84,7 @@ CullingTruth::View CullingTruth::truthOf(const FrameRequest& r, bool withPicture
   View view;
   view.request = r;
   FrameRequest whole = r;
-  whole.method = CullingCase::none;
+  whole.cullingCase = CullingCase::none;
   whole.levers.drawn.occlusion.reset();
   FrameResult result = draw(whole, withPicture);
   view.cut = result.visible.tiles.size();
@@ -116,7 +116,7 @@ CullingTruth::View CullingTruth::truthOf(const FrameRequest& r, bool withPicture
   }
 
   FrameRequest frustum = r;
-  frustum.method = CullingCase::view_frustum;
+  frustum.cullingCase = CullingCase::view_frustum;
   frustum.backFaces = false;
   frustum.levers.drawn.occlusion.reset();
   result = draw(frustum, false);
@@ -135,7 +135,7 @@ FrameResult CullingTruth::draw(const FrameRequest& r, bool wholly) {
 void CullingTruth::compare(const View& view, CullingCase culling, OcclusionMethod method,
                            OcclusionResolution band, Tally& tally, bool wholly) {
   FrameRequest r = view.request;
-  r.method = culling;
+  r.cullingCase = culling;
   r.occlusion = method;
   r.levers.drawn.occlusion = band;
   const auto result = draw(r, wholly);
@@ -244,7 +244,7 @@ void CullingTruth::proveFlight(const std::vector<FrameRequest>& requests, Sum& s
   };
   for (const auto& [method, name] : occlusionChoices()) follow(method, name);
   // From nothing, surfaces made some a frame. Levels alone are the same without waiting for pages.
-  if (form_ != TerrainForm::levels) return;
+  if (form_ != TerrainForm::tiles) return;
   for (View& view : views) view.request.waitForPages = false;
   for (const auto& [method, name] : occlusionChoices()) {
     if (method == OcclusionMethod::depth_map) continue;

@@ -108,7 +108,7 @@ class CullingTruth : public SceneTest {
   void proveFlight(const std::vector<FrameRequest>& requests, Sum& sum);
   void tellSum(const Sum& sum) const;
 
-  TerrainForm form_ = TerrainForm::levels;
+  TerrainForm form_ = TerrainForm::tiles;
 };
 
 }  // namespace trimtab::test

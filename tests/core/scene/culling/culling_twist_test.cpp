@@ -46,7 +46,7 @@ TEST_F(CullingTwist, losesNothingWhileLevelsChangeInFlight) {
     const View view = truthOf(r, false);
     changes += view.cut != cut;
     cut = view.cut;
-    r.method = CullingCase::proposed;
+    r.cullingCase = CullingCase::proposed;
     r.occlusion = OcclusionMethod::horizon;
     r.levers.drawn.occlusion = OcclusionResolution{400, 300};
     const auto result = renderer.draw(r, offscreen->framebuffer());

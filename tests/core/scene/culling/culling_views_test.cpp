@@ -10,18 +10,18 @@ using CullingViews = test::CullingTruth;
 TEST_F(CullingViews, loseNothingOverEverest) {
   TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest");
   ASSERT_TRUE(useShared("dem-srtm3-everest"));
-  prove({{TerrainForm::levels, 13}, {TerrainForm::patches, 12}}, 11);
+  prove({{TerrainForm::tiles, 13}, {TerrainForm::patches, 12}}, 11);
 }
 
 TEST_F(CullingViews, loseNothingOverTheMountainsOfBigTujunga) {
   TRIMTAB_NEEDS_SHARED("data/dem-30m-bigtujunga");
   ASSERT_TRUE(useShared("dem-30m-bigtujunga"));
-  prove({{TerrainForm::levels, 13}, {TerrainForm::patches, 12}}, 21);
+  prove({{TerrainForm::tiles, 13}, {TerrainForm::patches, 12}}, 21);
 }
 
 TEST_F(CullingViews, loseNothingOverTheSample) {
   ASSERT_TRUE(useSample());
-  prove({{TerrainForm::levels, 13}, {TerrainForm::patches, 12}}, 31);
+  prove({{TerrainForm::tiles, 13}, {TerrainForm::patches, 12}}, 31);
 }
 
 }  // namespace

@@ -162,14 +162,14 @@ class DegenerateViews : public test::CullingTruth {
     for (const auto& [name, request] : all) {
       SCOPED_TRACE(name + ": " + describe(request));
       auto whole = request;
-      whole.staticLod.terrain = form;
-      whole.method = CullingCase::none;
+      whole.terrain.form = form;
+      whole.cullingCase = CullingCase::none;
       const auto unculled = picture(whole);
       const auto nodes = renderer.readNodes();
       for (const std::uint32_t node : nodes) seen += node != scene::Renderer::kNoNode;
       const auto compare = [&](CullingCase culling, OcclusionMethod method, const char* how) {
         auto r = whole;
-        r.method = culling;
+        r.cullingCase = culling;
         r.occlusion = method;
         r.levers.drawn.occlusion = kBand;
         ASSERT_EQ(differing(unculled, picture(r)), 0u) << how;
@@ -179,15 +179,15 @@ class DegenerateViews : public test::CullingTruth {
       for (const auto& [method, how] : test::occlusionChoices()) compare(CullingCase::proposed, method, how);
       // Nothing of it stays behind, whatever is kept from frame to frame.
       auto after = good;
-      after.staticLod.terrain = form;
+      after.terrain.form = form;
       after.levers.drawn.occlusion = kBand;
       for (const OcclusionMethod method : {OcclusionMethod::automatic, OcclusionMethod::horizon}) {
         after.occlusion = method;
         const auto again = picture(after);
         if (first.empty()) {
-          after.method = CullingCase::none;
+          after.cullingCase = CullingCase::none;
           first = picture(after);
-          after.method = CullingCase::proposed;
+          after.cullingCase = CullingCase::proposed;
         }
         ASSERT_EQ(differing(first, again), 0u) << "the next view";
       }
@@ -203,7 +203,7 @@ class DegenerateViews : public test::CullingTruth {
 
 TEST_F(DegenerateViews, ofTilesShowWhatIsThere) {
   use(test::syntheticMountains());
-  drawAll(TerrainForm::levels);
+  drawAll(TerrainForm::tiles);
 }
 
 TEST_F(DegenerateViews, ofPatchesShowWhatIsThere) {
@@ -223,7 +223,7 @@ TEST_F(DegenerateViews, ofTinyTerrainsShowWhatIsThere) {
     std::vector<TerrainForm> forms;
   };
   const Tiny kTiny[] = {
-      {"one tile", ofPosts(TerrainIndex::kTileCells + 1), {TerrainForm::levels, TerrainForm::patches}},
+      {"one tile", ofPosts(TerrainIndex::kTileCells + 1), {TerrainForm::tiles, TerrainForm::patches}},
       {"four posts", ofPosts(2), {TerrainForm::patches}},
       {"one triangle", oneTriangle(), {TerrainForm::static_trees}},
   };

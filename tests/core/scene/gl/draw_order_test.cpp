@@ -1,6 +1,6 @@
 #include <random>
 
-#include "core/scene/terrain/tiles/tile_indices.h"
+#include "core/scene/surface/tile_indices.h"
 #include "tests/core/scene/scene_test.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/planted_defects.h"
@@ -54,10 +54,10 @@ TEST_F(DrawOrder, ofTilesAtTheSameDepthDoesNotDependOnWhatIsLeftOut) {
                 {Degrees{360 * unit(random)}, Degrees{10 - 60 * unit(random)}, Degrees{30 * unit(random)}});
     r.levers.drawn.errorPx = i % 2 ? 0.5 : 8.0;
     FrameResult result;
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     const auto whole = picture(r, &result);
     const auto unculled = renderer.readNodes();
-    r.method = CullingCase::view_frustum;
+    r.cullingCase = CullingCase::view_frustum;
     EXPECT_EQ(differing(picture(r, &result), whole), 0u) << "view " << i;
     outside += result.visible.outsideFrustum;
     EXPECT_EQ(renderer.readNodes(), unculled) << "view " << i;

@@ -45,11 +45,11 @@ TEST_F(GlObjects, doNotGrowWhenTerrainFormAndCullingChange) {
   const auto round = [&] {
     for (const auto& terrain : terrains) {
       use(terrain);
-      for (const TerrainForm form : {TerrainForm::levels, TerrainForm::patches})
+      for (const TerrainForm form : {TerrainForm::tiles, TerrainForm::patches})
         for (const CullingCase method : {CullingCase::view_frustum, CullingCase::proposed}) {
           auto r = request(over(0.5, 0.5, 300), {Degrees{30}, Degrees{-8}, Degrees{0}});
-          r.staticLod.terrain = form;
-          r.method = method;
+          r.terrain.form = form;
+          r.cullingCase = method;
           picture(r);
         }
     }

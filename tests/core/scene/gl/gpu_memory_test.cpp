@@ -135,7 +135,7 @@ TEST_F(GpuMemory, treesGiveUpWhatWasLongestUnused) {
 TEST_F(GpuMemory, treesGoWithoutWhatThereIsNoMemoryFor) {
   use(std::make_shared<const test::TreeTerrain>(test::syntheticMountains()));
   auto r = request(over(0.5, 0.5, 300), {Degrees{30}, Degrees{-8}, Degrees{0}});
-  r.staticLod.terrain = TerrainForm::static_trees;
+  r.terrain.form = TerrainForm::static_trees;
   const auto whole = picture(r);
   renderer.initialize();
   {

@@ -26,7 +26,7 @@ class MultiDraw : public test::SceneTest {
       auto r =
           request(over(place(random), place(random), 60 * std::pow(60, unit(random))),
                   {Degrees{360 * unit(random)}, Degrees{10 - 50 * unit(random)}, Degrees{20 * unit(random)}});
-      r.staticLod.terrain = form;
+      r.terrain.form = form;
       r.waitForPages = true;
       r.levers.drawn.occlusion = OcclusionResolution{320, 240};
       r.overlays.colourByLevel = i == 3;
@@ -77,7 +77,7 @@ TEST_F(MultiDraw, namesTheWayThatThisContextGets) {
 
 TEST_F(MultiDraw, drawsTheSamePictureOfTilesEachWay) {
   use(test::syntheticMountains());
-  compareWays(TerrainForm::levels);
+  compareWays(TerrainForm::tiles);
 }
 
 TEST_F(MultiDraw, drawsTheSamePictureOfPatchesEachWay) {

@@ -19,7 +19,7 @@ inline double geometricBoundPx(const FrameRequest& request) {
   const ViewShape& v = request.view;
   const double across = std::max(std::abs(v.left), std::abs(v.right)),
                up = std::max(std::abs(v.bottom), std::abs(v.top));
-  if (request.staticLod.terrain == TerrainForm::patches && !asksForTrees(request))
+  if (request.terrain.form == TerrainForm::patches && !asksForTrees(request))
     return std::numeric_limits<double>::infinity();
   double cutPx = request.levers.drawn.errorPx * request.levers.drawn.lodScale;
   if (asksForTrees(request)) {

@@ -22,7 +22,7 @@ class ErrorMeter : public test::ErrorMeterTest {
     for (int i = 0; i < views; ++i) {
       auto r = anyRequest(random);
       r.levers.drawn.errorPx = r.levers.drawn.treeErrorPx = boundPx;
-      r.staticLod.terrain = form;
+      r.terrain.form = form;
       r.staticLod.error = ErrorMeasure::maximum;
       r.levers.drawn.lodScale = lodScale;
       const FrameError error = measure(r);
@@ -43,7 +43,7 @@ TEST_F(ErrorMeter, theReferencesPictureIsTheUnculledOne) {
     auto r = scene::referenceOf(anyRequest(random));
     FrameResult frustum, none;
     const auto culled = picture(r, &frustum);
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     EXPECT_EQ(differing(culled, picture(r, &none)), 0u) << "view " << i;
     EXPECT_LT(frustum.visible.tiles.size(), none.visible.tiles.size());
     for (const TileDraw& tile : none.visible.tiles) ASSERT_EQ(database->index().level[tile.node], 0);
@@ -58,7 +58,7 @@ TEST_F(ErrorMeter, theReferencesPictureIsTheUnculledOneOverRealTerrains) {
   for (int i = 0; i < 6; ++i) {
     auto r = scene::referenceOf(anyRequest(random));
     const auto culled = picture(r);
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     EXPECT_EQ(differing(culled, picture(r)), 0u) << "view " << i;
   }
 }
@@ -72,7 +72,7 @@ TEST_F(ErrorMeter, findsNothingWhereNothingIsLost) {
   }
   before.time = -1.0 / 60;
   for (const CullingCase method : {CullingCase::none, CullingCase::view_frustum, CullingCase::proposed}) {
-    r.method = before.method = method;
+    r.cullingCase = before.cullingCase = method;
     scene::ErrorPictures pictures;
     const FrameError error = measure(r, &before, &pictures);
     EXPECT_EQ(error.wronglyCulledPixels, 0u);
@@ -93,7 +93,7 @@ TEST_F(ErrorMeter, findsNothingWhereNothingIsLost) {
 TEST_F(ErrorMeter, sharesWhatWasDrawnAndOwnsNothing) {
   measureOver(test::syntheticMountains());
   auto r = lowRequest();
-  r.method = CullingCase::view_frustum;
+  r.cullingCase = CullingCase::view_frustum;
   const double share = measure(r).hiddenDrawnShare;
   // Counted by leaving each out: it owns nothing if that changes nothing.
   FrameResult result;
@@ -106,25 +106,25 @@ TEST_F(ErrorMeter, sharesWhatWasDrawnAndOwnsNothing) {
   plant(renderer, {});
   EXPECT_GT(hidden, 5u);
   EXPECT_EQ(share, static_cast<double>(hidden) / static_cast<double>(result.visible.tiles.size()));
-  r.method = CullingCase::proposed;
+  r.cullingCase = CullingCase::proposed;
   EXPECT_LT(measure(r).hiddenDrawnShare, share) << "what the depth map is for";
   r.eye.height = r.eye.height + Metres{20000};
   r.attitude.pitch = Degrees{60};
-  r.method = CullingCase::view_frustum;
+  r.cullingCase = CullingCase::view_frustum;
   EXPECT_TRUE(std::isnan(measure(r).hiddenDrawnShare)) << "nothing but sky: no share of it";
 }
 
 TEST_F(ErrorMeter, geometricErrorStaysWithinWhatTheLevelsPromise) {
   measureOver(test::syntheticMountains());
-  for (const double bound : {2.0, 8.0}) staysWithinTheBound(bound, 1, TerrainForm::levels, 10);
-  staysWithinTheBound(2, 4, TerrainForm::levels, 10);
+  for (const double bound : {2.0, 8.0}) staysWithinTheBound(bound, 1, TerrainForm::tiles, 10);
+  staysWithinTheBound(2, 4, TerrainForm::tiles, 10);
 }
 
 TEST_F(ErrorMeter, geometricErrorStaysWithinWhatTheLevelsPromiseOverKansai) {
   TRIMTAB_NEEDS_SHARED("data/fg-kansai-e135n35");
   measureOver(bakeShared("fg-kansai-e135n35"));
   ASSERT_TRUE(database);
-  staysWithinTheBound(2, 1, TerrainForm::levels, 8);
+  staysWithinTheBound(2, 1, TerrainForm::tiles, 8);
   staysWithinTheBound(4, 1, TerrainForm::static_trees, 8);
 }
 

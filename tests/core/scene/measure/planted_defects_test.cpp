@@ -65,7 +65,7 @@ TEST_F(PlantedDefects, areNotTheReferences) {
 TEST_F(PlantedDefects, findsANodeOfStaticTreesThatIsLeftOut) {
   measureOver(std::make_shared<const test::TreeTerrain>(test::syntheticMountains()));
   auto r = lowRequest();
-  r.staticLod.terrain = TerrainForm::static_trees;
+  r.terrain.form = TerrainForm::static_trees;
   scene::ErrorPictures pictures;
   EXPECT_EQ(measure(r, nullptr, &pictures).wronglyCulledPixels, 0u);
   EXPECT_TRUE(pictures.drawn.staticLod.drawn && pictures.drawnReference.staticLod.drawn);

@@ -71,7 +71,7 @@ class SliversOver : public Slivers, public testing::WithParamInterface<const cha
     return black;
   }
   std::vector<TerrainForm> forms() const {
-    std::vector<TerrainForm> forms{TerrainForm::levels};
+    std::vector<TerrainForm> forms{TerrainForm::tiles};
     if (database->patches()) forms.push_back(TerrainForm::patches);
     if (database->staticLod()) forms.push_back(TerrainForm::static_trees);
     return forms;
@@ -82,7 +82,7 @@ class SliversOver : public Slivers, public testing::WithParamInterface<const cha
     FrameRequest r = request(over(east, north, aboveM),
                              {Degrees{360 * unit(random)}, Degrees{-12 + 14 * unit(random)}, Degrees{0}});
     r.view.widthPx = kWide, r.view.heightPx = kHigh;
-    r.staticLod.terrain = form;
+    r.terrain.form = form;
     r.staticLod.error = ErrorMeasure::maximum;
     r.levers.drawn.errorPx = r.levers.drawn.treeErrorPx = 2;
     return r;
@@ -98,10 +98,9 @@ class SliversOver : public Slivers, public testing::WithParamInterface<const cha
     return false;
   }
   void prove(const FrameRequest& r) {
-    SCOPED_TRACE(testing::Message() << std::setprecision(17) << "form "
-                                    << static_cast<int>(r.staticLod.terrain) << " from "
-                                    << r.eye.latitude.value() << ' ' << r.eye.longitude.value() << ' '
-                                    << r.eye.height.value() << ' ' << r.attitude.heading.value() << ' '
+    SCOPED_TRACE(testing::Message() << std::setprecision(17) << "form " << static_cast<int>(r.terrain.form)
+                                    << " from " << r.eye.latitude.value() << ' ' << r.eye.longitude.value()
+                                    << ' ' << r.eye.height.value() << ' ' << r.attitude.heading.value() << ' '
                                     << r.attitude.pitch.value());
     scene::ErrorPictures pictures;
     const FrameError finest = measure(scene::referenceOf(r), nullptr, &pictures);

@@ -67,7 +67,7 @@ TEST_F(StageCost, countsEveryMomentOnce) {
     r.separateStages = false;
     expectWhole(costOf(r), "not waiting");
     for (const CullingCase method : {CullingCase::none, CullingCase::view_frustum}) {
-      r.method = method;
+      r.cullingCase = method;
       expectWhole(costOf(r), "other case");
     }
   }
@@ -155,7 +155,7 @@ TEST_F(StageCost, ofStaticTreesSumsToTheTotal) {
   if (!report.software) GTEST_SKIP() << "parts are the GPU's";
   use(std::make_shared<const test::TreeTerrain>(test::syntheticMountains()));
   auto r = whole(1);
-  r.staticLod.terrain = TerrainForm::static_trees;
+  r.terrain.form = TerrainForm::static_trees;
   for (int i = 0; i < 3; ++i) expectWhole(costOf(r), "trees");
 }
 

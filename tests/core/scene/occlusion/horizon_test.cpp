@@ -133,7 +133,7 @@ TEST_F(HorizonScene, isNotBuiltAgainNearWhereItHidNextToNothing) {
     EXPECT_EQ(renderer.readHorizon(8).empty(), !result.horizon) << what;
     EXPECT_EQ(renderer.readDepthMap().pixels.size(), result.horizon ? 320u * 240u : 0u) << what;
     auto whole = r;
-    whole.method = CullingCase::none;
+    whole.cullingCase = CullingCase::none;
     EXPECT_EQ(differing(drawn, picture(whole)), 0u) << what;
     EXPECT_TRUE(renderer.readDepthMap().pixels.empty()) << what;
   };

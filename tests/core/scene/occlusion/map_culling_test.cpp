@@ -50,7 +50,7 @@ TEST_F(MapScene, leavesNoPixelOfPatchesOut) {
     auto r = request(over(place(random), place(random), 15 * std::pow(300, unit(random) * unit(random))),
                      {Degrees{360 * unit(random)}, Degrees{-25 + 30 * unit(random)},
                       Degrees{i % 3 == 0 ? 360 * unit(random) : 0}});
-    r.staticLod.terrain = TerrainForm::patches;
+    r.terrain.form = TerrainForm::patches;
     r.waitForPages = true;
     r.levers.drawn.errorPx = i % 2 == 0 ? 0.25 : 1.0;
     compare(r, kSizes[static_cast<std::size_t>(i) % kSizes.size()], tally);

@@ -46,7 +46,7 @@ class OcclusionStage : public test::SceneTest {
   /// Number of pixels in which it differs from the same without culling.
   std::size_t lost(FrameRequest r, FrameResult* result = nullptr) {
     const auto drawn = picture(r, result);
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     return differing(drawn, picture(r));
   }
 };
@@ -121,7 +121,7 @@ TEST_F(OcclusionStage, keepsTheVisibleSetWhileNothingInItCanChange) {
       changes("a step", [](auto& c) { c.eye.height = c.eye.height + Metres{0.5}; });
       changes("a zoom", [](auto& c) { c.view.right *= 0.9; });
       changes("other levels", [](auto& c) { c.levers.drawn.errorPx = 6; });
-      changes("another case", [](auto& c) { c.method = CullingCase::view_frustum; });
+      changes("another case", [](auto& c) { c.cullingCase = CullingCase::view_frustum; });
       changes("another band", [](auto& c) { c.levers.drawn.occlusion = OcclusionResolution{64, 48}; });
       changes("scheme frustum", [](auto& c) { c.levers.drawn.occlusion.reset(); });
       changes("no back faces", [](auto& c) { c.backFaces = false; });

@@ -68,7 +68,7 @@ TEST_F(Occlusion, isSkippedWhereTheDecisionAsksForNone) {
   result = renderer.draw(r, offscreen->framebuffer());
   EXPECT_EQ(result.counters.depthMapsDrawn, 1u);
   EXPECT_GT(result.cost.occlusion, 0);
-  r.method = CullingCase::view_frustum;
+  r.cullingCase = CullingCase::view_frustum;
   EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.depthMapsDrawn, 1u);
   EXPECT_EQ(renderer.readDepthMap().width, 0) << "an old map must not pass for this frame's";
 }

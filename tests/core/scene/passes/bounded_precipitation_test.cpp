@@ -74,7 +74,7 @@ TEST_F(BoundedPrecipitation, isDrawnOnlyWhereSomethingFalls) {
 TEST_F(BoundedPrecipitation, leavesNothingBehindWhenItStops) {
   for (const Precipitation kind : kKinds) {
     auto r = falling(kind, 1);
-    r.method = CullingCase::proposed;
+    r.cullingCase = CullingCase::proposed;
     r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     r.overlays.tileBounds = true;
     const Pixels8 before = picture(dry(r));

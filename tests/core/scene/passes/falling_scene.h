@@ -16,7 +16,7 @@ class FallingScene : public SceneTest {
 
   FrameRequest falling(Precipitation kind, double density, double aboveM = 400) const {
     auto r = request(over(0.5, 0.5, aboveM), {Degrees{30}, Degrees{-5}, Degrees{0}});
-    r.method = CullingCase::view_frustum;
+    r.cullingCase = CullingCase::view_frustum;
     r.decision.weather.precipitation = kind;
     r.decision.weather.density = density;
     r.precipitationForm = form_;

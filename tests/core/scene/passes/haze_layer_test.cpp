@@ -45,7 +45,7 @@ class HazeLayerPicture : public SceneTest {
   /// A level view but for its pitch.
   FrameRequest level(double aboveM, double pitch = kPitch) const {
     auto r = request(over(0.5, 0.5, aboveM), {Degrees{30}, Degrees{pitch}, Degrees{0}});
-    r.method = CullingCase::view_frustum;
+    r.cullingCase = CullingCase::view_frustum;
     return r;
   }
   /// The sine of the elevation at which a pixel of such a view looks.
@@ -69,8 +69,8 @@ class HazeLayerPicture : public SceneTest {
     const double above = std::exp(between(std::log(30), std::log(6000)));
     auto r = request(over(between(0.1, 0.9), between(0.1, 0.9), above),
                      {Degrees{between(0, 360)}, Degrees{between(-40, 30)}, Degrees{between(-60, 60)}});
-    r.method = CullingCase::view_frustum;
-    r.staticLod.terrain = random() % 2 == 0 ? TerrainForm::levels : TerrainForm::patches;
+    r.cullingCase = CullingCase::view_frustum;
+    r.terrain.form = random() % 2 == 0 ? TerrainForm::tiles : TerrainForm::patches;
     // Tops about the terrain's own heights, and high above them.
     const double highest = database->info().highest.value();
     const double top = random() % 3 == 0 ? between(0, highest) : between(highest, 3 * highest + 3000);
@@ -197,11 +197,11 @@ TEST_F(HazeLayerPicture, isTheSameInAllThreeCullingCases) {
   for (int i = 0; i < 5; ++i) {
     auto r = anyView(random);
     r.levers.drawn.occlusion = OcclusionResolution{400, 300};
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     const Pixels8 whole = picture(r);
     for (const CullingCase method : {CullingCase::view_frustum, CullingCase::proposed}) {
       FrameResult result;
-      r.method = method;
+      r.cullingCase = method;
       EXPECT_EQ(differing(whole, picture(r, &result)), 0u) << i;
       beyond += result.visible.beyondVisibility;
     }

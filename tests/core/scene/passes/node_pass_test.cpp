@@ -26,9 +26,9 @@ TEST_F(NodePass, givesEachPixelToTheTileWithoutWhichItChanges) {
 TEST_F(NodePass, givesEachPixelToTheNodeOfStaticTreesWithoutWhichItChanges) {
   use(std::make_shared<const test::TreeTerrain>(test::syntheticMountains()));
   auto r = request(over(0.4, 0.5, 150), {Degrees{40}, Degrees{-6}, Degrees{}});
-  r.staticLod.terrain = TerrainForm::static_trees;
+  r.terrain.form = TerrainForm::static_trees;
   r.levers.drawn.treeErrorPx = 4;
-  r.method = CullingCase::view_frustum;
+  r.cullingCase = CullingCase::view_frustum;
   compareWithLeavingOut(r, 24);
 }
 
@@ -42,7 +42,7 @@ TEST_F(NodePass, withoutCullingIsThePictureWithoutCulling) {
     r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     picture(r);
     const auto unculled = renderer.readNodes(true);
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     picture(r);
     EXPECT_EQ(unculled, renderer.readNodes()) << "view " << i;
   }

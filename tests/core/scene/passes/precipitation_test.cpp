@@ -68,7 +68,7 @@ TEST_F(Falling, leavesNothingBehindWhenItStops) {
   use(test::syntheticMountains());
   for (const Precipitation kind : kKinds) {
     auto r = falling(kind, 0.5);
-    r.method = CullingCase::proposed;
+    r.cullingCase = CullingCase::proposed;
     r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     r.overlays.tileBounds = true;
     const Pixels8 before = picture(dry(r));
@@ -100,7 +100,7 @@ TEST_F(Falling, hidesNothingFromTheDepthMapAndDrawsNoDepth) {
       const auto metres = renderer.readDistances();
       const Pixels8 frustum = picture(r);
       EXPECT_EQ(renderer.readDistances(), metres);
-      r.method = CullingCase::proposed;
+      r.cullingCase = CullingCase::proposed;
       FrameResult result;
       EXPECT_EQ(differing(frustum, picture(r, &result)), 0u);
       EXPECT_TRUE(result.depthMap.has_value()) << result.note;

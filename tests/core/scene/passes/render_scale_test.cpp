@@ -70,7 +70,7 @@ TEST_F(RenderScale, neitherSelectsOtherLevelsNorLeavesATrace) {
 TEST_F(RenderScale, cullingChangesNoPixelOfIt) {
   for (const double scale : {0.3, 0.5, 0.71}) {
     auto unculled = ofMountains(scale), culled = ofMountains(scale);
-    unculled.method = CullingCase::none;
+    unculled.cullingCase = CullingCase::none;
     culled.decision.scheme = Scheme::dynamic;
     culled.levers.drawn.occlusion = OcclusionResolution{640, 480};
     for (const OcclusionMethod method : {OcclusionMethod::depth_map, OcclusionMethod::horizon}) {

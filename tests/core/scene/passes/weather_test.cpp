@@ -46,7 +46,7 @@ class Weather : public SceneTest {
  protected:
   FrameRequest level(double aboveM, double heading = 30, double pitch = -5) const {
     auto r = request(over(0.5, 0.5, aboveM), {Degrees{heading}, Degrees{pitch}, Degrees{0}});
-    r.method = CullingCase::view_frustum;
+    r.cullingCase = CullingCase::view_frustum;
     return r;
   }
   /// How many of `shown`'s pixels are not what exponential extinction makes of `clear`'s, by distances.
@@ -151,7 +151,7 @@ TEST_F(Weather, isTheFormulaInTheSkyAndGreyAllOverInThickFog) {
 TEST_F(Weather, leavesNothingBehindInClearAir) {
   use(test::syntheticMountains());
   auto r = level(400);
-  r.method = CullingCase::proposed;
+  r.cullingCase = CullingCase::proposed;
   r.levers.drawn.occlusion = OcclusionResolution{320, 240};
   const Pixels8 clear = picture(r);
   for (const double visibility : {50.0, 9000.0}) {
@@ -173,11 +173,11 @@ TEST_F(Weather, isTheSamePictureInAllThreeCullingCases) {
     const double farM = 6000 + 1500 * i;
     r.decision.weather = fog(farM, farM);
     r.levers.drawn.farM = r.decision.weather.farM;
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     FrameResult all, none;
     const Pixels8 whole = picture(r, &none);
     for (const CullingCase method : {CullingCase::view_frustum, CullingCase::proposed}) {
-      r.method = method;
+      r.cullingCase = method;
       EXPECT_EQ(differing(whole, picture(r, &all)), 0u) << i;
       beyond += all.visible.beyondVisibility;
       occluded += all.visible.occluded;

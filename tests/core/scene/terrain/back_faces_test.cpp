@@ -37,18 +37,18 @@ class BackFaces : public test::SceneTest {
   /// The same view with the switch on and off and without culling.
   void look(const GeodeticPosition& eye, const Attitude& attitude, CullingCase method, Seen& seen) {
     auto r = request(eye, attitude);
-    r.staticLod.terrain = database->patches() ? TerrainForm::patches : TerrainForm::levels;
+    r.terrain.form = database->patches() ? TerrainForm::patches : TerrainForm::tiles;
     r.levers.drawn.errorPx = 4;
     r.waitForPages = r.reproducible = true;
     r.levers.drawn.occlusion = OcclusionResolution{320, 240};
-    r.method = method;
+    r.cullingCase = method;
     FrameResult on, off;
     const auto fronts = picture(r, &on);
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     const auto all = picture(r);
     r.backFaces = false;
     const auto bothOfAll = picture(r);
-    r.method = method;
+    r.cullingCase = method;
     const auto both = picture(r, &off);
     EXPECT_EQ(off.visible.backFacing, 0u);
     EXPECT_EQ(on.visible.tiles.size() + on.visible.outsideFrustum + on.visible.occluded +
@@ -130,7 +130,7 @@ TEST_F(BackFaces, openNoRidgeWhereGlCutsTriangles) {
   auto r = request({Degrees{27.526951337}, Degrees{86.273159672}, Metres{2612.9352}},
                    {Degrees{151.820795}, Degrees{-4}, Degrees{0}});
   r.levers.drawn.errorPx = 0.5;
-  r.method = CullingCase::none;
+  r.cullingCase = CullingCase::none;
   const auto fronts = picture(r);
   r.backFaces = false;
   EXPECT_EQ(differing(fronts, picture(r)), 0u);

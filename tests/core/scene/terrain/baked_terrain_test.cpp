@@ -31,7 +31,7 @@ class BakedScene : public test::SceneTest {
   }
   FrameRequest patches(double east, double north, double aboveM, const Attitude& attitude) const {
     auto r = request(over(east, north, aboveM), attitude);
-    r.staticLod.terrain = TerrainForm::patches;
+    r.terrain.form = TerrainForm::patches;
     r.waitForPages = true;
     r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     r.occlusion = OcclusionMethod::horizon;
@@ -48,10 +48,10 @@ TEST_F(BakedScene, cullsAcrossTheDateLineAsAnywhere) {
     auto r = patches(0.3 + 0.04 * i, 0.6, 60, {Degrees{30.0 * i}, Degrees{-3}, Degrees{}});
     r.levers.drawn.errorPx = 0.05;
     FrameResult result;
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     const auto whole = picture(r, &result);
     for (const CullingCase method : {CullingCase::view_frustum, CullingCase::proposed}) {
-      r.method = method;
+      r.cullingCase = method;
       EXPECT_EQ(differing(picture(r, &result), whole), 0u) << "view " << i;
     }
     served += result.horizon;

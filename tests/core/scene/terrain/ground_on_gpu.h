@@ -16,6 +16,7 @@
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/gl_program.h"
 #include "core/scene/shaders/shaders.h"
+#include "core/scene/shaders/shared_constants.h"
 #include "core/scene/terrain/ground/ground_texture.h"
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/terrain/ground/build.h"
@@ -158,7 +159,7 @@ class GroundOnGpu : public ::testing::Test {
 
   /// Texture of a level, as it is on the GPU.
   std::vector<std::uint32_t> layers(std::size_t levels) {
-    std::vector<std::uint32_t> all(levels * GroundTexture::kSide * GroundTexture::kSide);
+    std::vector<std::uint32_t> all(levels * kGroundSide * kGroundSide);
     glUseProgram(program_);
     texture_->bind(program_);
     glActiveTexture(GL_TEXTURE0 + kGroundUnit);

@@ -1,6 +1,7 @@
 #include <random>
 
-#include "core/scene/terrain/ground/sun.h"
+#include "core/scene/shaders/light.h"
+#include "core/scene/shaders/shared_constants.h"
 #include "ground_on_gpu.h"
 
 namespace trimtab::scene {
@@ -129,7 +130,7 @@ TEST_F(GroundOnGpu, movedInStepsIsTheSameToTheBitAsFresh) {
   EXPECT_EQ(draw(view), picture);
   // All of a large level is of the window; of small ones only what has ground is.
   const auto fresh = layers(levels);
-  constexpr std::size_t kLayer = std::size_t{GroundTexture::kSide} * GroundTexture::kSide;
+  constexpr std::size_t kLayer = std::size_t{kGroundSide} * kGroundSide;
   for (std::size_t l = 0; l < levels && ground->shape().levels[l].columns > 2000; ++l)
     EXPECT_TRUE(std::equal(moved.begin() + static_cast<std::ptrdiff_t>(l * kLayer),
                            moved.begin() + static_cast<std::ptrdiff_t>((l + 1) * kLayer),
@@ -252,7 +253,7 @@ TEST_F(GroundOnGpu, keepsItsMemoryHoweverFarItFlies) {
     most = std::max(most, texture_->bytes());
   }
   const std::size_t levels = ground->shape().levels.size();
-  EXPECT_LE(most, levels * GroundTexture::kSide * GroundTexture::kSide * 4 + (97u << 18));
+  EXPECT_LE(most, levels * kGroundSide * kGroundSide * 4 + (97u << 18));
 }
 
 TEST_F(GroundOnGpu, onlyBordersAreUploadedAsTheEyeMoves) {

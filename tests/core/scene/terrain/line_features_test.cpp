@@ -67,9 +67,9 @@ class LineFeatures : public test::SceneTest {
   FrameRequest from(double east, double north, double aboveM, const Attitude& attitude,
                     TerrainForm form) const {
     auto r = request(over(east, north, aboveM), attitude);
-    r.staticLod.terrain = form;
+    r.terrain.form = form;
     r.waitForPages = true;
-    r.method = CullingCase::view_frustum;
+    r.cullingCase = CullingCase::view_frustum;
     return r;
   }
 

@@ -97,15 +97,15 @@ class PatchCracks : public test::SceneTest {
       r.view.nearM = 0.5;
       r.attitude = {Degrees{360 * unit(random)}, Degrees{40 - 130 * unit(random)},
                     Degrees{360 * unit(random)}};
-      r.staticLod.terrain = TerrainForm::patches;
+      r.terrain.form = TerrainForm::patches;
       r.waitForPages = true;
       r.overlays.showHoles = true;
       r.levers.drawn.errorPx = 0.3 * std::pow(100, unit(random));
       r.levers.drawn.lodScale = std::pow(8, unit(random));
       r.levers.drawn.occlusion = OcclusionResolution{160, 120};
-      r.method = i % 3 == 0   ? CullingCase::none
-                 : i % 3 == 1 ? CullingCase::view_frustum
-                              : CullingCase::proposed;
+      r.cullingCase = i % 3 == 0   ? CullingCase::none
+                      : i % 3 == 1 ? CullingCase::view_frustum
+                                   : CullingCase::proposed;
       // Above whatever may be drawn there.
       r.eye.height = r.eye.height + Metres{3 * std::pow(3000, unit(random))};
       FrameResult result;

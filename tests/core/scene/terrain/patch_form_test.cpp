@@ -14,7 +14,7 @@ class PatchForm : public test::NodeOwners {
  protected:
   FrameRequest patches(double east, double north, double aboveM, const Attitude& attitude) const {
     auto r = request(over(east, north, aboveM), attitude);
-    r.staticLod.terrain = TerrainForm::patches;
+    r.terrain.form = TerrainForm::patches;
     r.waitForPages = true;
     r.levers.drawn.occlusion = OcclusionResolution{320, 240};
     return r;
@@ -47,17 +47,17 @@ TEST_F(PatchForm, isDrawnWhereItIsAskedForOrThereIsNothingElse) {
   EXPECT_FALSE(result.visible.tiles.empty());
   EXPECT_EQ(result.visible.reason.size(), result.tilesInCut);
   EXPECT_GE(result.tilesInCut, result.visible.tiles.size());
-  r.staticLod.terrain = TerrainForm::levels;
+  r.terrain.form = TerrainForm::tiles;
   const auto byTiles = picture(r, &result);
   keep("tiles", byTiles, r.view);
   EXPECT_FALSE(result.patches);
   EXPECT_GT(differing(byPatches, byTiles), 1000u);
-  r.staticLod.terrain = TerrainForm::patches;
+  r.terrain.form = TerrainForm::patches;
   EXPECT_EQ(differing(picture(r), byPatches), 0u) << "and back";
 
   use(test::patchedMountains(false));
-  for (const TerrainForm form : {TerrainForm::levels, TerrainForm::patches, TerrainForm::static_trees}) {
-    r.staticLod.terrain = form;
+  for (const TerrainForm form : {TerrainForm::tiles, TerrainForm::patches, TerrainForm::static_trees}) {
+    r.terrain.form = form;
     EXPECT_EQ(differing(picture(r, &result), byPatches), 0u);
     EXPECT_TRUE(result.patches);
   }
@@ -75,7 +75,7 @@ TEST_F(PatchForm, hasItsFineGroundUnderTheEyeOnTerrainWiderThanHalfTheEarth) {
   // Of blue to red, which the sun, elsewhere in the sky, leaves as it is.
   const auto contrast = [&](double longitude) {
     auto r = request({Degrees{0}, Degrees{longitude}, Metres{30000}}, {Degrees{}, Degrees{-90}, Degrees{}});
-    r.staticLod.terrain = TerrainForm::patches;
+    r.terrain.form = TerrainForm::patches;
     const auto rgba = picture(r);
     keep("wide" + std::to_string(static_cast<int>(longitude)), rgba, r.view);
     double sum = 0, squares = 0;
@@ -101,7 +101,7 @@ TEST_F(PatchForm, isTheSameSurfaceAsTheTiles) {
     r.levers.drawn.errorPx = 0.01;
     picture(r);
     const auto byPatches = renderer.readDistances();
-    r.staticLod.terrain = TerrainForm::levels;
+    r.terrain.form = TerrainForm::tiles;
     picture(r);
     const auto byTiles = renderer.readDistances();
     std::size_t off = 0;
@@ -128,11 +128,11 @@ TEST_F(PatchForm, cullingCasesDrawTheSamePicture) {
       r.decision.weather = {.fogged = true, .visibilityM = 9000, .extinctionPerM = 4e-4, .farM = 9000};
     r.levers.drawn.farM = r.decision.weather.farM;
     FrameResult result;
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     const auto whole = picture(r, &result);
     EXPECT_EQ(result.visible.tiles.size(), result.tilesInCut);
     for (const CullingCase method : {CullingCase::view_frustum, CullingCase::proposed}) {
-      r.method = method;
+      r.cullingCase = method;
       EXPECT_EQ(differing(picture(r, &result), whole), 0u) << "view " << i;
       hidden += result.visible.occluded;
       outside += result.visible.outsideFrustum;
@@ -145,7 +145,7 @@ TEST_F(PatchForm, cullingCasesDrawTheSamePicture) {
 TEST_F(PatchForm, nodePassGivesEachPixelToThePatchWithoutWhichItChanges) {
   use(test::patchedMountains(false));
   auto r = patches(0.4, 0.5, 150, {Degrees{40}, Degrees{-6}, Degrees{17}});
-  r.method = CullingCase::view_frustum;
+  r.cullingCase = CullingCase::view_frustum;
   for (const double error : {1.0, 8.0}) {
     r.levers.drawn.errorPx = error;
     compareWithLeavingOut(r, 16);
@@ -159,7 +159,7 @@ TEST_F(PatchForm, nodePassWithoutCullingIsThePictureWithoutCulling) {
     auto r = anyView(random);
     picture(r);
     const auto unculled = renderer.readNodes(true);
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     picture(r);
     EXPECT_EQ(unculled, renderer.readNodes()) << "view " << i;
   }

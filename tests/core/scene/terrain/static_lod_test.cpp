@@ -23,7 +23,7 @@ class StaticTrees : public SceneTest {
  protected:
   FrameRequest treeRequest(const GeodeticPosition& eye, const Attitude& attitude) const {
     auto r = request(eye, attitude);
-    r.staticLod.terrain = TerrainForm::static_trees;
+    r.terrain.form = TerrainForm::static_trees;
     return r;
   }
   static Pixel pixelAt(const std::vector<std::uint8_t>& rgba, int x, int y) {
@@ -55,13 +55,13 @@ class StaticTrees : public SceneTest {
       r.levers.drawn.treeErrorPx = i % 4 ? finestPx : 16 * finestPx;
       r.levers.drawn.occlusion = OcclusionResolution{i % 4 < 2 ? 320 : 800, i % 4 < 2 ? 240 : 600};
       FrameResult result;
-      r.method = CullingCase::none;
+      r.cullingCase = CullingCase::none;
       const auto whole = picture(r, &result);
       for (const TileDraw& node : result.visible.tiles) depths.insert(trees().nodes[node.node].depth);
-      r.method = CullingCase::view_frustum;
+      r.cullingCase = CullingCase::view_frustum;
       EXPECT_EQ(differing(whole, picture(r, &result)), 0u) << "view " << i << ", frustum";
       outside += result.visible.outsideFrustum;
-      r.method = CullingCase::proposed;
+      r.cullingCase = CullingCase::proposed;
       EXPECT_EQ(differing(whole, picture(r, &result)), 0u) << "view " << i << ", proposed";
       hidden += result.visible.occluded;
     }
@@ -96,7 +96,7 @@ TEST_F(StaticTrees, drawTheSameTerrainAsTheTiledLevelsWhereBothAreExact) {
     r.levers.drawn.errorPx = 1e-6;
     r.levers.drawn.treeErrorPx = 1e-6;
     const auto byTrees = picture(r);
-    r.staticLod.terrain = TerrainForm::levels;
+    r.terrain.form = TerrainForm::tiles;
     const auto byLevels = picture(r);
     // Where the noise on the ground is counted from differs from tile to tile: a step or two of 255.
     std::size_t apart = 0, different = 0;
@@ -151,7 +151,7 @@ TEST_F(StaticTrees, holdTheirPlaceHundredKilometresFromTheOrigin) {
     r.overlays.showHoles = true;
     r.levers.drawn.treeErrorPx = 1e-6;
     const auto byTrees = picture(r);
-    r.staticLod.terrain = TerrainForm::levels;
+    r.terrain.form = TerrainForm::tiles;
     r.levers.drawn.errorPx = 1e-6;
     const auto byLevels = picture(r);
     std::size_t wrong = 0;
@@ -172,7 +172,7 @@ TEST_F(StaticTrees, areCoarserFartherAwayAndForALargerScale) {
   std::uint64_t last = ~0ull;
   for (const double above : {200.0, 2000.0, 8000.0, 40000.0}) {
     auto r = treeRequest(over(0.5, 0.5, above), {Degrees{0}, Degrees{-90}, Degrees{0}});
-    r.method = CullingCase::none;
+    r.cullingCase = CullingCase::none;
     const auto result = renderer.draw(r, offscreen->framebuffer());
     EXPECT_LT(result.visible.triangles, last);
     last = result.visible.triangles;
@@ -210,7 +210,7 @@ TEST_F(StaticTrees, fillTheCountsThatPlotsAndTracesRead) {
   EXPECT_EQ(result.visible.tiles.size() + result.visible.outsideFrustum + result.visible.occluded,
             result.tilesInCut);
   EXPECT_EQ(result.visible.reason.size(), result.tilesInCut);
-  r.staticLod.terrain = TerrainForm::levels;
+  r.terrain.form = TerrainForm::tiles;
   const auto levels = renderer.draw(r, offscreen->framebuffer());
   EXPECT_FALSE(levels.staticLod.drawn);
   EXPECT_EQ(levels.visible.reason.size(), levels.tilesInCut);
@@ -260,7 +260,7 @@ TEST_F(StaticTrees, areLeftOutWhereTheTerrainHasNone) {
   use(test::syntheticMountains());
   auto r = request(over(0.4, 0.4, 400), {Degrees{30}, Degrees{-8}, Degrees{0}});
   const auto plain = picture(r);
-  r.staticLod.terrain = TerrainForm::static_trees;
+  r.terrain.form = TerrainForm::static_trees;
   r.overlays.treeDepth = 2;
   r.overlays.treePicture = true;
   FrameResult result;
@@ -271,7 +271,7 @@ TEST_F(StaticTrees, areLeftOutWhereTheTerrainHasNone) {
 TEST_F(StaticTrees, showEachLevelByItself) {
   use(treeMountains());
   auto r = request(over(0.5, 0.5, 12000), {Degrees{0}, Degrees{-90}, Degrees{0}});
-  r.method = CullingCase::none;
+  r.cullingCase = CullingCase::none;
   std::uint64_t last = 0;
   for (int depth = 0; depth < 5; ++depth) {
     r.overlays.treeDepth = depth;
@@ -395,7 +395,7 @@ TEST_F(StaticTrees, chooseAndReadNothingAgainForAViewThatStands) {
     picture(r, &second);
   };
   changes("a head that turns", [](auto& c) { c.attitude.heading = Degrees{41}; });
-  changes("another case", [](auto& c) { c.method = CullingCase::view_frustum; });
+  changes("another case", [](auto& c) { c.cullingCase = CullingCase::view_frustum; });
   changes("another size of the map", [](auto& c) {
     c.levers.drawn.occlusion = OcclusionResolution{160, 120};
   });
@@ -411,9 +411,9 @@ TEST_F(StaticTrees, readNoDepthMapWhereNoneIsAskedForOrWorthIt) {
   EXPECT_EQ(result.counters.depthMapsDrawn, 0u) << "scheme frustum";
   EXPECT_TRUE(std::isnan(result.cost.occlusion));
   r.levers.drawn.occlusion = OcclusionResolution{320, 240};
-  r.method = CullingCase::view_frustum;
+  r.cullingCase = CullingCase::view_frustum;
   EXPECT_EQ(renderer.draw(r, offscreen->framebuffer()).counters.depthMapsDrawn, 0u);
-  r.method = CullingCase::proposed;
+  r.cullingCase = CullingCase::proposed;
   result = renderer.draw(r, offscreen->framebuffer());
   EXPECT_EQ(result.counters.depthMapsDrawn, 1u);
   EXPECT_GT(result.cost.occlusion, 0);

@@ -114,7 +114,7 @@ TEST_F(SharedScene, drawsWhateverIsVisibleWhileSurfacesAreMade) {
       for (int frame = 0; frame < 40; ++frame) {
         if (frame == 0) renderer.setTerrain(database);  // forgets its surfaces
         auto r = request(over(0.45 + 1e-4 * frame, 0.5, 90), {Degrees{9.0 * frame}, Degrees{-3}, Degrees{0}});
-        r.staticLod.terrain = patches ? TerrainForm::patches : TerrainForm::levels;
+        r.terrain.form = patches ? TerrainForm::patches : TerrainForm::tiles;
         r.levers.drawn.occlusion = OcclusionResolution{400, 300};
         r.occlusion = method;
         r.levers.drawn.errorPx = 0.5;
@@ -142,15 +142,15 @@ TEST_F(SharedScene, hidesWhileMostSurfacesAreNotMade) {
     for (const double east : {0.4, 0.45, 0.5, 0.55}) {
       renderer.setTerrain(database);  // forgets its surfaces
       auto r = request(over(east, 0.5, 60), {Degrees{40}, Degrees{-3}, Degrees{0}});
-      r.staticLod.terrain = patches ? TerrainForm::patches : TerrainForm::levels;
+      r.terrain.form = patches ? TerrainForm::patches : TerrainForm::tiles;
       r.levers.drawn.occlusion = OcclusionResolution{400, 300};
       r.occlusion = OcclusionMethod::horizon;
       r.levers.drawn.errorPx = 0.1;
       r.waitForPages = true;
-      r.method = CullingCase::view_frustum;
+      r.cullingCase = CullingCase::view_frustum;
       FrameResult result;
       picture(r, &result);
-      r.method = CullingCase::proposed;
+      r.cullingCase = CullingCase::proposed;
       r.waitForPages = false;
       const std::size_t frames = result.tilesInCut / scene::SurfaceShare::kAFrame / 3;
       ASSERT_GT(frames, 3u) << "no place for this test";

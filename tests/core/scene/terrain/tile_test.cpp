@@ -4,7 +4,7 @@
 #include <random>
 
 #include "core/scene/occlusion/occluder.h"
-#include "core/scene/terrain/tiles/tile_indices.h"
+#include "core/scene/surface/tile_indices.h"
 #include "synthetic_terrain.h"
 
 namespace trimtab {

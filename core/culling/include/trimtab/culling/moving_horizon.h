@@ -44,7 +44,7 @@ class MovingHorizon {
     std::function<bool(std::uint32_t node)> mayOcclude = {};
     /// Returns whether every surface that may replace a node of the cut lies within 1.5 times the sum of both
     /// errors of it, above and below. If unset, every node's replacement does.
-    std::function<bool(std::uint32_t node)> takesRoom = {};
+    std::function<bool(std::uint32_t node)> replacementsStayNear = {};
   };
   /// Appends one HorizonTile for each tile of the frame, in order. What they point to must not change until
   /// the next fill or clear().
@@ -61,7 +61,7 @@ class MovingHorizon {
   void restart();
 
   /// Returns the horizon in use.
-  const Horizon& horizon() const { return builds_[standing_].horizon; }
+  const Horizon& horizon() const { return builds_[active_].horizon; }
   std::uint64_t built() const { return built_; }              ///< horizons begun since the start
   std::uint64_t fromScratch() const { return fromScratch_; }  ///< of these, built in a single frame
   std::uint64_t carried() const { return carried_; }          ///< frames that used verdicts of another cut
@@ -100,7 +100,7 @@ class MovingHorizon {
   std::span<const std::uint8_t> verdicts(const Frame& frame);
 
   std::array<Build, 2> builds_;
-  std::size_t standing_ = 0;    ///< the build in use
+  std::size_t active_ = 0;      ///< the build in use
   bool moving_ = false;         ///< lastEye_ is known
   Vec3 lastEye_, step_, turn_;  ///< step_ in metres per frame, turn_ per frame squared
   std::vector<std::uint8_t> verdicts_;

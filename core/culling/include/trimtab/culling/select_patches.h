@@ -29,7 +29,7 @@ struct PatchCut {
 
   // Working storage of selectPatches, kept from frame to frame.
   std::vector<float> need;                   ///< one per diamond: (error / distance) squared; 0: not to split
-  std::vector<std::uint8_t> lack;            ///< one per diamond: flags of what it waits for
+  std::vector<std::uint8_t> missing;         ///< one per diamond: flags of what it waits for
   std::vector<std::uint32_t> splitList;      ///< diamonds that should be split
   std::vector<std::uint32_t> stack, wantOf;  ///< `wantOf`: one per page, 1 + its place in `wants`, or 0
 };

@@ -99,7 +99,7 @@ ViewShape viewShape(const ViewParameters& parameters, int windowWidthPx, int win
 /// measured. cost_stages.h says which stages sum to `total`.
 struct FrameCost {
   double decide = 0, select = 0, occlusion = 0, cull = 0, draw = 0, gpu = 0, total = 0;
-  double page = kNotMeasured;  ///< making and uploading what the GPU lacks
+  double page = kNotMeasured;  ///< making and uploading what the GPU misses
   // Parts of `gpu`, and like it of a frame or two before. Without a GPU they are parts of `draw`, known only
   // if the frame waits after each pass.
   double blur = kNotMeasured, weather = kNotMeasured, symbology = kNotMeasured;

@@ -54,16 +54,13 @@ struct FrameRequest {
   /// who changed what.
   LeverChain levers;
   HoldDecision hold;  ///< the reason of the chain's last step
-  CullingCase method = CullingCase::proposed;
+  CullingCase cullingCase = CullingCase::proposed;
   OcclusionMethod occlusion =
       OcclusionMethod::depth_map;  ///< of levels and patches; static trees have their own
-  /// Distance, metres, within which a GPU's depth map may hide tiles and nodes of static trees; farther ones
-  /// are drawn. It serves the experiment that decides for each node.
-  double testedWithinM = WeatherDecision::kUnlimited;
-  bool backFaces = true;  ///< culls nodes that face away from the eye, except in CullingCase::none
-  Metres spreadFrom{5000};    ///< as LodParameters::spreadFrom
-  bool scaleTexture = false;  ///< the ground's texture shrinks with the LOD scale too
-  StaticLodParameters staticLod;  ///< apart from its errorPx, for which FrameLevers::treeErrorPx counts
+  bool backFaces = true;           ///< culls nodes that face away from the eye, except in CullingCase::none
+  Metres spreadFrom{5000};         ///< as LodParameters::spreadFrom
+  bool scaleTexture = false;       ///< the ground's texture shrinks with the LOD scale too
+  StaticLodParameters staticLod;   ///< apart from its errorPx, for which FrameLevers::treeErrorPx counts
   TerrainParameters terrain;
   Overlays overlays;
   /// If set, culling and LOD selection use this eye while the image uses the real one; its frustum is drawn.
@@ -75,7 +72,7 @@ struct FrameRequest {
   bool separateStages = false;
   /// Waits for the image, so that the total of FrameCost includes the GPU's work, and `gpu` and its parts
   /// belong to this frame. Use it for measurements. A software rasteriser is always waited for.
-  bool waitForPicture = false;
+  bool waitForImage = false;
   /// Waits for the pages that this view needs, so that the image depends on the request alone. Use it for
   /// measurements and comparisons. If false, no frame waits, and what has not been read yet is drawn coarser.
   bool waitForPages = false;
@@ -118,7 +115,7 @@ std::optional<TerrainForm> formDrawn(const FrameRequest& request, const FormsOfT
 
 /// Reports whether the request asks for static trees, if the terrain has them.
 inline bool asksForTrees(const FrameRequest& request) {
-  return request.staticLod.terrain == TerrainForm::static_trees || request.overlays.treeDepth >= 0 ||
+  return request.terrain.form == TerrainForm::static_trees || request.overlays.treeDepth >= 0 ||
          request.overlays.treePicture || request.overlays.textureSquares;
 }
 

@@ -50,7 +50,7 @@ struct HoldDecision {
   HeldLevers asked, held;      ///< by preset and policy; by the arbiter
   StageTimes askedMs, heldMs;  ///< predicted for both
   double limitMs = 0;          ///< what a prediction may reach
-  double bandMs = 0;           ///< half the 90 % band of a prediction, at the levers of the image before
+  double halfBandMs = 0;       ///< half the 90 % band of a prediction, at the levers of the image before
 
   friend bool operator==(const HoldDecision&, const HoldDecision&) = default;
 };

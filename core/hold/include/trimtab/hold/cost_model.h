@@ -41,9 +41,9 @@ struct ClockCoefficients {
 /// clock that takes longer for the load that they were asked for: processor or GPU.
 struct CostCoefficients : ClockCoefficients {
   std::optional<ClockCoefficients> second;  ///< the other clock, if there are two
-  double bandMs = 0;   ///< half the 90 % band of an image with the load that was asked for
-  double offMs = 0;    ///< the median by which the last predictions were off, to either side
-  bool known = false;  ///< enough images were measured to predict one
+  double halfBandMs = 0;  ///< half the 90 % band of an image with the load that was asked for
+  double offMs = 0;       ///< the median by which the last predictions were off, to either side
+  bool known = false;     ///< enough images were measured to predict one
 };
 
 /// Returns the time of an image, by stage: that of the clock which takes longer for this load.
@@ -72,7 +72,7 @@ class ClockModel {
   void observe(const FrameLoad& load, const ClockTimes& times);
   ClockCoefficients coefficients() const;
   /// Returns the half width of the 90 % band for an image of this load, milliseconds.
-  double bandMs(const FrameLoad& load) const;
+  double halfBandMs(const FrameLoad& load) const;
   /// Returns the median by which the last predictions were off, milliseconds.
   double offMs() const;
   /// A prediction from fewer images would be little more than the first image's time.

@@ -24,7 +24,7 @@ struct ComingEye {
 struct HoldOutcome {
   int imagesAhead = 0;
   double predictedTriangles = 0, triangles = 0;
-  double predictedMs = 0, bandMs = 0, ms = 0;
+  double predictedMs = 0, halfBandMs = 0, ms = 0;
 };
 
 class FrameHold {

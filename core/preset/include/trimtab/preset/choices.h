@@ -58,7 +58,7 @@ struct ChoicesOf<RenderSize> {
 template <>
 struct ChoicesOf<TerrainForm> {
   static constexpr ChoiceOption options[] = {
-      {"levels", "Tiled levels"}, {"patches", "Error-bounded patches"}, {"static_trees", "Static trees"}};
+      {"tiles", "Tiled levels"}, {"patches", "Error-bounded patches"}, {"static_trees", "Static trees"}};
 };
 template <>
 struct ChoicesOf<StaticDistanceRule> {

@@ -25,7 +25,7 @@ enum class OcclusionMethod { automatic, depth_map, cpu_map, horizon };
 enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };
 /// The form in which the terrain is drawn: tiles, patches, or the static trees of document E if it has them.
-enum class TerrainForm { levels, patches, static_trees };
+enum class TerrainForm { tiles, patches, static_trees };
 /// Says how a tree node's error becomes its minimum viewer distance.
 enum class StaticDistanceRule { picture, factor };
 enum class ErrorMeasure { rms, maximum, as_published };
@@ -88,7 +88,7 @@ struct SchemeParameters {
 };
 
 struct CullingParameters {
-  CullingCase method = CullingCase::proposed;
+  CullingCase cullingCase = CullingCase::proposed;
   OcclusionMethod occlusion = OcclusionMethod::automatic;
   bool backFaces = true;  ///< culls nodes that face away from the eye
 };
@@ -103,14 +103,14 @@ struct LodParameters {
   bool texture = false;  ///< the ground's texture shrinks with the LOD scale too
 };
 
-/// Terrain that is read from disk while it is flown over.
+/// How terrain is drawn in any form, and kept while it is flown over.
 struct TerrainParameters {
+  TerrainForm form = TerrainForm::tiles;
   Megabytes cache{512};
 };
 
 /// Static LOD trees (document E).
 struct StaticLodParameters {
-  TerrainForm terrain = TerrainForm::levels;
   ErrorMeasure error = ErrorMeasure::rms;
   StaticDistanceRule rule = StaticDistanceRule::picture;
   Pixels errorPx{1};             ///< used by `picture`

@@ -9,7 +9,7 @@ struct GlReport {
   std::string vendor, renderer, version;
   bool software = false;  ///< as contextIsSoftware() says
   bool usable = false;    ///< the renderer can draw in it
-  std::string missing;    ///< what the renderer needs and the context lacks; empty if it is usable
+  std::string missing;    ///< what the renderer needs and the context misses; empty if it is usable
   /// The way in which draws reach GL, and the reason (DrawChoice in core/scene/gl/multi_draw.h); empty unless
   /// it is usable.
   std::string drawing;

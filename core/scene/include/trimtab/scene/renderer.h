@@ -53,7 +53,7 @@ class Renderer {
   /// test, face culling, blending and scissor test off; the viewport is not restored.
   ///
   /// Without a usable context or without pixels it does nothing and returns a default result. FrameRequest
-  /// says when it waits for the GPU (waitForPicture) and for pages (waitForPages).
+  /// says when it waits for the GPU (waitForImage) and for pages (waitForPages).
   FrameResult draw(const FrameRequest& request, unsigned fbo);
 
   /// Builds and uploads meshes that coming images will draw, so that those do not take the time: in order, of
@@ -98,9 +98,10 @@ class Renderer {
   /// all are 0.
   std::vector<std::uint8_t> readPixels(int width, int height);
 
+  struct Impl;  ///< for renderer.cpp alone
+
  private:
   friend void plant(Renderer& renderer, const Defects& defects);  // planted_defects.h
-  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -111,7 +111,7 @@ class Session {
   /// Reports whether an image at `now` would differ from the last one requested: because of a packet, an
   /// edit, an eye that moves on between packets, or a blur that has not ended. It is false while the host is
   /// silent and nothing is edited.
-  bool needsPicture(double now) const;
+  bool needsImage(double now) const;
   /// Reports whether images are due even if nothing moves: the last one was blurred, or head motion counts
   /// images and has yet to see that the eye rests.
   bool unsettled() const;

@@ -25,7 +25,7 @@ static_assert(sizeof(PatchVertex) == 20);
 
 /// Says what a variant has where the next finer one has a triangle: nothing there, the same triangle (it is
 /// inherited), or another one in its place.
-enum class Heir : std::uint8_t { none, same, other };
+enum class Inherited : std::uint8_t { none, same, other };
 
 /// The meshes of one patch: vertices for all variants, the border's first, and each variant's triangles,
 /// anticlockwise from above.
@@ -38,7 +38,7 @@ struct PatchMesh {
   std::array<std::uint32_t, PatchIndex::kMostVariants + 1> firstIndex{};
   /// One entry per triangle of all variants but the coarsest; empty if it is not known. The triangles of a
   /// variant have the order of the finer triangles that they replace; those that replace none come last.
-  std::vector<Heir> heirs;
+  std::vector<Inherited> inherited;
 };
 
 /// Holds what is known about a patch and not needed for selecting it; errors in metres.

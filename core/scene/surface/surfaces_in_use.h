@@ -63,34 +63,34 @@ class SurfaceShare {
 
   void begin(std::size_t most) {
     left_ = most;
-    lacksAny_ = lacksMany_ = false;
+    missesAny_ = missesMany_ = false;
   }
   /// Makes the surfaces that `nodes` miss, nearest first, and returns how many still miss one.
-  template <class Lacks, class Make>
+  template <class Misses, class Make>
   std::size_t makeNearest(std::span<const TileDraw> nodes, const std::vector<Box>& bounds, Vec3 eye,
-                          const Lacks& lacks, const Make& make) {
+                          const Misses& misses, const Make& make) {
     wanted_.clear();
     for (std::uint32_t i = 0; i < nodes.size(); ++i)
-      if (lacks(nodes[i])) wanted_.emplace_back(distanceSquared(bounds[nodes[i].node], eye), i);
+      if (misses(nodes[i])) wanted_.emplace_back(distanceSquared(bounds[nodes[i].node], eye), i);
     const std::size_t now = std::min(left_, wanted_.size()), later = wanted_.size() - now;
     std::partial_sort(wanted_.begin(), wanted_.begin() + static_cast<std::ptrdiff_t>(now), wanted_.end());
     for (std::size_t k = 0; k < now; ++k) make(nodes[wanted_[k].second]);
     left_ -= now;
     made_ += now;
-    lacksAny_ = lacksAny_ || later > 0;
-    lacksMany_ = lacksMany_ || isMany(later, nodes.size());
+    missesAny_ = missesAny_ || later > 0;
+    missesMany_ = missesMany_ || isMany(later, nodes.size());
     return later;
   }
   /// Reports whether so many surfaces are missing that little is known of what the ground hides.
-  static bool isMany(std::size_t lacking, std::size_t of) { return lacking * 8 > of; }
+  static bool isMany(std::size_t missing, std::size_t of) { return missing * 8 > of; }
   // After any makeNearest of this frame.
-  bool lacksAny() const { return lacksAny_; }
-  bool lacksMany() const { return lacksMany_; }
+  bool missesAny() const { return missesAny_; }
+  bool missesMany() const { return missesMany_; }
   std::uint64_t made() const { return made_; }  ///< since the start
 
  private:
   std::size_t left_ = 0;
-  bool lacksAny_ = false, lacksMany_ = false;
+  bool missesAny_ = false, missesMany_ = false;
   std::uint64_t made_ = 0;
   std::vector<std::pair<double, std::uint32_t>> wanted_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 
 #include "trimtab/units/linear.h"
 
@@ -16,5 +17,10 @@ inline double lightOn(const Vec3& normal) {
          kSunLight * std::max(dot(normal, normalized(kTowardsSun)), 0.0);
 }
 inline constexpr double kMostLight = 1.5;
+
+/// Haze of clear air, sRGB: the colour of the horizon and of thin fog.
+inline constexpr std::array<float, 3> kHaze{0.74f, 0.80f, 0.86f};
+/// After so many metres of clear air a third (1 / e) of a colour is left.
+inline constexpr double kHazeDistanceM = 110e3;
 
 }  // namespace trimtab::scene

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/scene/terrain/tiles/tile_cache.h"
+#include "tile_cache.h"
 
 namespace trimtab::scene {
 
@@ -18,7 +18,6 @@ class OcclusionPass {
   OcclusionPass(const OcclusionPass&) = delete;
   OcclusionPass& operator=(const OcclusionPass&) = delete;
 
-  static constexpr int kTilesPerRow = 64;
   static constexpr int kLevels = 5;  ///< levels of the pyramid, each half the size of the one before
 
   /// Sets the size of the depth map in texels, and the tiles (by slot) to be tested.

@@ -1,15 +1,16 @@
-#include "occlusion.h"
+#include "occlusion_pass.h"
 
 #include <algorithm>
 
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/shaders/shaders.h"
+#include "core/scene/shaders/shared_constants.h"
 
 namespace trimtab::scene {
 namespace {
 
 constexpr int kLevels = OcclusionPass::kLevels;
-constexpr int kResultWidth = OcclusionPass::kTilesPerRow * kParts;
+constexpr int kResultWidth = kTestedPerRow * kParts;
 
 GLuint makeTexture() {
   GLuint texture = 0;
@@ -94,7 +95,7 @@ void OcclusionPass::resizeResult(int rows) {
 void OcclusionPass::prepare(int width, int height, std::span<const std::uint32_t> slots) {
   resizeMap(width, height);
   count_ = static_cast<int>(slots.size());
-  resizeResult(std::max(1, (count_ + kTilesPerRow - 1) / kTilesPerRow));
+  resizeResult(std::max(1, (count_ + kTestedPerRow - 1) / kTestedPerRow));
   glBindBuffer(GL_TEXTURE_BUFFER, testedBuffer_);
   glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(slots.size_bytes(), 4)),
                nullptr, GL_STREAM_DRAW);
@@ -138,7 +139,7 @@ void OcclusionPass::reduce(unsigned program) {
 }
 
 void OcclusionPass::test(const TileCache& tiles, std::vector<std::uint8_t>& flags) {
-  const int rows = (count_ + kTilesPerRow - 1) / kTilesPerRow;
+  const int rows = (count_ + kTestedPerRow - 1) / kTestedPerRow;
   glBindFramebuffer(GL_FRAMEBUFFER, resultFrame_);
   glViewport(0, 0, kResultWidth, rows);
   bindTexture(kDepthUnit, GL_TEXTURE_2D, depth_);
