@@ -270,6 +270,23 @@ TEST(ExperimentPage, saysThatNothingWasMeasured) {
   EXPECT_THAT(test::PageScript(pageWith(toJson(nothing))).shown(), HasSubstr("Nothing was measured."));
 }
 
+TEST(Table, isSortedByNumbersWithBlanksLastAndTheOtherWayTheSecondTime) {
+  const std::string sorted = valueOf(R"js((function () {
+    var order = [], direction = null;
+    var rows = [['10', '10'], [null, ''], ['Infinity', 'all'], ['9', '9']].map(function (cell) {
+      return {name: cell[1], cells: [{getAttribute: function () { return cell[0]; }, textContent: cell[1]}]};
+    });
+    var body = {rows: rows, appendChild: function (row) { order.push(row.name); }};
+    var head = {cellIndex: 0, getAttribute: function () { return direction; },
+      setAttribute: function (name, value) { direction = value; }, removeAttribute: function () {}};
+    head.parentNode = {cells: [head], parentNode: {parentNode: {tBodies: [body]}}};
+    sortBy(head);
+    sortBy(head);
+    return order.join(' ');
+  })())js");
+  EXPECT_EQ(sorted, "9 10 all  all 10 9 ");
+}
+
 TEST(Page, saysWhereTheNumbersAreIfThereIsNoScript) {
   const std::string page = pageWith(toJson(anyReport()));
   const std::size_t from = page.find("<noscript>");

@@ -281,6 +281,31 @@ TEST(HtmlReport, comparisonsSayWhatTheIntervalSays) {
   EXPECT_EQ(valueOf(rows[0], "ratio"), 0.5);
 }
 
+TEST(HtmlReport, plotsAlongTheFlightWhatChangesAndNamesWhatDoesNot) {
+  const test::ScratchDir dir;
+  const Page page = pageOf(results({2, 30, {"f", "g"}}), dir.path());
+  const pugi::xml_node flight = page.section("flight");
+  for (const char* changes : {"frame time (ms)", "triangles", "FLIP"})
+    EXPECT_EQ(flight.select_nodes((std::string("h4[.='") + changes + "']").c_str()).size(), 2u)
+        << changes << " of each flight";
+  for (const auto& found : flight.select_nodes("div[@class='small']"))
+    EXPECT_EQ(found.node().select_nodes("figure").size(), 2u) << "one plot for each preset";
+  EXPECT_THAT(allText(flight), HasSubstr("The same in every frame: vertices 400,000"));
+  EXPECT_THAT(allText(flight), HasSubstr("largest FLIP, view frustum")) << "the worst frame is marked";
+}
+
+TEST(HtmlReport, marksTheBudgetInEachPlotOfTime) {
+  const test::ScratchDir dir;
+  Results r = results({2, 10, {"f"}});
+  const auto marked = [&](const char* section) {
+    return pageOf(r, dir.path()).section(section).select_nodes(".//text[.='budget 16.7 ms']").size();
+  };
+  EXPECT_EQ(marked("pareto"), 3u) << "three errors";
+  EXPECT_EQ(marked("stages"), 1u);
+  r.budgetMs = kNan;
+  EXPECT_EQ(marked("stages"), 0u);
+}
+
 TEST(HtmlReport, anySizeOfResultsMakesAPage) {
   const test::ScratchDir dir;
   EXPECT_THAT(allText(pageOf(Results{}, dir.path()).document), HasSubstr("Nothing was measured"));
