@@ -163,9 +163,9 @@ void addBench(CLI::App& app, int& exitCode) {
   CLI::App* command =
       app.add_subcommand("bench", "Run time against error, over flights x presets x culling cases");
   command->footer(
-      "The folder gets results.json, frames.csv, report.html, pareto.svg and pictures of the worst frames. A "
-      "run that "
-      "was stopped goes on where it was when the same command is given again.");
+      "The folder gets results.json, frames.csv, report.html and pictures of the worst frames. A run that "
+      "was "
+      "stopped goes on where it was when the same command is given again.");
   command->add_option("--terrain", arguments->terrain, "Database, or elevation to bake")->required();
   command->add_option("--flight", arguments->flights, "Flights (CSV, trace or capture); one or more")
       ->required();

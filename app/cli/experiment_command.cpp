@@ -90,7 +90,7 @@ void addExperiment(CLI::App& app, int& exitCode) {
           ->check(CLI::IsMember({"sweep", "head log", "weather", "steady"}));
       command->add_option("--head", arguments->setup.head, "Head log, or sweep:DEG/S; bad rows are left out");
     }
-    command->add_option("-o,--output", arguments->output, "Folder for JSON, CSV and plots");
+    command->add_option("-o,--output", arguments->output, "Folder for JSON, CSV and a page with plots");
     command->add_flag("--json", arguments->json, "One JSON document on standard output");
     stopWhenAsked(*command);
     command->callback([arguments, run = named.run, &exitCode] { exitCode = cli::run(*arguments, run); });

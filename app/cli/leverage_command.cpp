@@ -59,7 +59,7 @@ void addLeverage(CLI::App& app, int& exitCode) {
       ->capture_default_str()
       ->check(CLI::Range(1, 10000));
   command->add_option("-o,--output", arguments->output,
-                      "Folder for leverage.json, leverage.csv and leverage.svg");
+                      "Folder for leverage.json, leverage.csv and leverage.html");
   command->add_option("--losses", arguments->losses,
                       "Preset file that receives what the arbiter loses by each lever, hold.loss_*");
   command->add_flag("--json", arguments->json, "One JSON document on standard output");

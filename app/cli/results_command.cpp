@@ -81,7 +81,10 @@ int run(const ResultsOptions& arguments) {
   report(findings);
   if (!findings.empty()) return kRefused;
   if (!arguments.output.empty()) {
-    const auto written = writeAtomically(arguments.output, harness::paretoPlot(*all));
+    harness::Results shown = *all;
+    // The pictures are in the folders of the runs.
+    for (harness::Unit& unit : shown.units) unit.worst.clear();
+    const auto written = writeAtomically(arguments.output, harness::htmlReport(shown, {}));
     report(written.findings());
     if (!written) return kRefused;
   }
@@ -94,9 +97,9 @@ int run(const ResultsOptions& arguments) {
 void addResults(CLI::App& app, int& exitCode) {
   auto arguments = std::make_shared<ResultsOptions>();
   CLI::App* command = app.add_subcommand(
-      "results", "Several runs of bench, of one machine and size, as one table and one plot");
+      "results", "Several runs of bench, of one machine and size, as one table and one page");
   command->add_option("folders", arguments->folders, "Folders of bench, or their results.json")->required();
-  command->add_option("-o,--output", arguments->output, "SVG of frame time against error");
+  command->add_option("-o,--output", arguments->output, "HTML page with tables and plots of all runs");
   command->add_flag("--json", arguments->json, "One JSON document on standard output");
   command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
 }

@@ -80,9 +80,10 @@ std::string toJson(const Leverage& leverage);
 Result<Leverage> parseLeverage(std::string_view json, const std::string& where);
 /// Returns the rows as a table of people's words, with plots, for whoever shows experiments.
 Report toReport(const Leverage& leverage);
-/// Returns one SVG: bars of milliseconds won, of FLIP lost and of geometric pixels lost, with intervals.
-std::string toSvg(const Leverage& leverage);
-/// Writes leverage.json, leverage.csv and leverage.svg, each atomically.
+/// Returns a page with the rows and, as bars with intervals, the milliseconds won, the FLIP lost and the
+/// geometric pixels lost.
+std::string pageOf(const Leverage& leverage);
+/// Writes leverage.json, leverage.csv and leverage.html, each atomically.
 Result<Done> writeLeverage(const std::filesystem::path& folder, const Leverage& leverage);
 
 }  // namespace trimtab::experiment

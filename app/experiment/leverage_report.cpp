@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "leverage.h"
+#include "page.h"
 #include "trimtab/measure/machine_watch.h"
 #include "trimtab/measure/paired_ratio.h"
 #include "trimtab/preset/preset.h"
@@ -83,17 +84,11 @@ std::string nameOf(const LeverageRow& row) {
   return name;
 }
 
-plot::Plot barsOf(const Leverage& leverage, const char* name, Estimate LeverageRow::*of) {
-  plot::Plot plot;
-  plot.kind = plot::Plot::Kind::rows;
-  plot.xLabel = name;
-  plot.widthPx = 460;
-  plot.legend = false;
-  plot::Series bars, intervals;
-  bars.name = "median of the frames";
-  intervals.name = "95 % interval";
-  intervals.draw = plot::Series::Draw::points;
-  intervals.look = plot::Series::kInk;
+Plot rowsOf(const Leverage& leverage, const char* file, const char* name, Estimate LeverageRow::*of) {
+  Plot plot{file, "", name, "", {}, {{"median of the frames", {}, {}}, {"95 % interval", {}, {}}}};
+  plot.rows = true;
+  Series &bars = plot.series[0], &intervals = plot.series[1];
+  intervals.draw = Series::Draw::points;
   for (const LeverageRow& row : leverage.rows) {
     const Estimate& value = row.*of;
     plot.categories.push_back(nameOf(row));
@@ -102,7 +97,6 @@ plot::Plot barsOf(const Leverage& leverage, const char* name, Estimate LeverageR
     intervals.xLow.push_back(value.low);
     intervals.xHigh.push_back(value.high);
   }
-  plot.series = {std::move(bars), std::move(intervals)};
   return plot;
 }
 
@@ -215,14 +209,12 @@ Report toReport(const Leverage& leverage) {
   return report;
 }
 
-std::string toSvg(const Leverage& leverage) {
-  return plot::toSvg(
-      "Leverage: " + leverage.flight + " over " + leverage.terrain + ", preset " + leverage.preset,
-      {{"median of the frames", 0}, {"95 % interval", plot::Series::kInk, 0}},
-      {barsOf(leverage, "time won (ms a frame)", &LeverageRow::wonMs),
-       barsOf(leverage, "image lost (FLIP, 0 to 1)", &LeverageRow::flipLost),
-       barsOf(leverage, "geometry lost (px)", &LeverageRow::geometricPxLost)},
-      3);
+std::string pageOf(const Leverage& leverage) {
+  Report report = toReport(leverage);
+  report.plots = {rowsOf(leverage, "leverage-ms", "time won (ms a frame)", &LeverageRow::wonMs),
+                  rowsOf(leverage, "leverage-flip", "image lost (FLIP, 0 to 1)", &LeverageRow::flipLost),
+                  rowsOf(leverage, "leverage-pixels", "geometry lost (px)", &LeverageRow::geometricPxLost)};
+  return pageWith(toJson(report));
 }
 
 Result<Done> writeLeverage(const std::filesystem::path& folder, const Leverage& leverage) {
@@ -232,7 +224,7 @@ Result<Done> writeLeverage(const std::filesystem::path& folder, const Leverage& 
   Findings findings;
   for (const auto& [name, text] : {std::pair{"leverage.json", toJson(leverage)},
                                    {"leverage.csv", toCsv(toReport(leverage).measured)},
-                                   {"leverage.svg", toSvg(leverage)}}) {
+                                   {"leverage.html", pageOf(leverage)}}) {
     const auto done = writeAtomically(folder / name, text);
     findings.insert(findings.end(), done.findings().begin(), done.findings().end());
   }

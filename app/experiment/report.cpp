@@ -1,11 +1,13 @@
 #include "report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "page.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::experiment {
@@ -47,44 +49,37 @@ Json rowsJson(const Table& table) {
   return rows;
 }
 
+Json numbersJson(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double v : values)
+    list.push_back(std::isfinite(v) ? Json(v) : std::isnan(v) ? Json() : Json(v > 0 ? "inf" : "-inf"));
+  return list;
+}
+
+Json seriesJson(const Series& series) {
+  constexpr std::array kDraw{"line", "points", "joined"};
+  return {{"name", series.name},
+          {"draw", kDraw[static_cast<std::size_t>(series.draw)]},
+          {"x", numbersJson(series.x)},
+          {"y", numbersJson(series.y)},
+          {"x_low", numbersJson(series.xLow)},
+          {"x_high", numbersJson(series.xHigh)},
+          {"y_low", numbersJson(series.yLow)},
+          {"y_high", numbersJson(series.yHigh)}};
+}
+
 Json plotJson(const Plot& plot) {
   Json series = Json::array();
-  const auto numbers = [](const std::vector<double>& values) {
-    Json list = Json::array();
-    for (const double v : values) list.push_back(std::isfinite(v) ? Json(v) : Json());
-    return list;
-  };
-  for (const Series& s : plot.series)
-    series.push_back({{"name", s.name}, {"x", numbers(s.x)}, {"y", numbers(s.y)}});
-  return {{"file", plot.file},      {"title", plot.title},           {"x_label", plot.xLabel},
-          {"y_label", plot.yLabel}, {"categories", plot.categories}, {"series", series}};
-}
-
-Table parseRows(const Json& rows) {
-  Table table;
-  for (const Json& row : rows) {
-    if (table.columns.empty())
-      for (const auto& [key, value] : row.items()) table.columns.push_back(key);
-    std::vector<Cell> cells;
-    for (const std::string& column : table.columns) {
-      const Json value = row.value(column, Json());
-      if (value.is_number())
-        cells.emplace_back(value.get<double>());
-      else if (value.is_string())
-        cells.emplace_back(value.get<std::string>());
-      else
-        cells.emplace_back();
-    }
-    table.rows.push_back(std::move(cells));
-  }
-  return table;
-}
-
-std::vector<double> parseNumbers(const Json& list) {
-  std::vector<double> values;
-  for (const Json& v : list)
-    values.push_back(v.is_number() ? v.get<double>() : std::numeric_limits<double>::quiet_NaN());
-  return values;
+  for (const Series& s : plot.series) series.push_back(seriesJson(s));
+  return {{"file", plot.file},
+          {"title", plot.title},
+          {"x_label", plot.xLabel},
+          {"y_label", plot.yLabel},
+          {"categories", plot.categories},
+          {"rows", plot.rows},
+          {"log_x", plot.logX},
+          {"log_y", plot.logY},
+          {"series", series}};
 }
 
 void appendTable(std::string& text, const Table& table) {
@@ -133,28 +128,6 @@ std::string toJson(const Report& report) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Result<Report> parseReport(std::string_view text, const std::string& where) {
-  try {
-    const Json json = Json::parse(text);
-    Report report;
-    report.name = json.at("experiment").get<std::string>();
-    report.source = json.at("source").get<std::string>();
-    report.machine = json.at("machine").get<std::string>();
-    report.published = parseRows(json.at("published"));
-    report.measured = parseRows(json.at("measured"));
-    report.notes = json.at("notes").get<std::vector<std::string>>();
-    for (const Json& p : json.at("plots")) {
-      Plot plot{p.at("file"), p.at("title"), p.at("x_label"), p.at("y_label"), p.at("categories"), {}};
-      for (const Json& s : p.at("series"))
-        plot.series.push_back({s.at("name"), parseNumbers(s.at("x")), parseNumbers(s.at("y"))});
-      report.plots.push_back(std::move(plot));
-    }
-    return report;
-  } catch (const Json::exception& e) {
-    return Finding{Severity::error, where, {}, "an experiment's JSON", e.what()};
-  }
-}
-
 std::string toText(const Report& report) {
   std::string text = report.name + " (" + report.source + ")\n" + report.machine + '\n';
   if (!report.published.rows.empty()) {
@@ -199,11 +172,12 @@ Result<Done> writeReport(const std::filesystem::path& folder, const Report& repo
     findings.insert(findings.end(), done.findings().begin(), done.findings().end());
     return done.ok();
   };
-  bool good = write(report.name + ".json", toJson(report));
+  const std::string json = toJson(report);
+  bool good = write(report.name + ".json", json);
+  good = write(report.name + ".html", pageWith(json)) && good;
   if (!report.published.rows.empty())
     good = write(report.name + "-published.csv", toCsv(report.published)) && good;
   good = write(report.name + "-measured.csv", toCsv(report.measured)) && good;
-  for (const Plot& plot : report.plots) good = write(plot.file + ".svg", toSvg(plot)) && good;
   if (!good) return findings;
   return {Done{}, findings};
 }

@@ -6,7 +6,6 @@
 #include <variant>
 #include <vector>
 
-#include "app/plot/plot.h"
 #include "trimtab/units/result.h"
 
 /// The result of an experiment: the published rows beside the measured ones.
@@ -24,9 +23,26 @@ struct Table {
   std::string text(std::size_t row, std::string_view column) const;
 };
 
-using plot::Plot;
-using plot::Series;
-using plot::toSvg;
+/// What a plot draws in one colour. The lists are empty or as long as `y`. NaN breaks a line and is no point.
+struct Series {
+  enum class Draw { line, points, joined };  ///< joined: points and a thin line through them
+
+  std::string name;
+  std::vector<double> x, y;  ///< without x, one value per category
+  Draw draw = Draw::line;
+  std::vector<double> xLow{}, xHigh{}, yLow{}, yHigh{};  ///< ends of intervals
+};
+
+/// A plot for resources/report.html. With categories, lines are bars: side by side, or with `rows` end to end
+/// down the side.
+struct Plot {
+  std::string file;  ///< a name for the plot's file, without ending
+  std::string title, xLabel, yLabel;
+  std::vector<std::string> categories;  ///< "\n" ends a line
+  std::vector<Series> series;
+  bool rows = false;
+  bool logX = false, logY = false;  ///< values of 0 and below are in a band of their own
+};
 
 struct Report {
   std::string name;                ///< "culling"
@@ -37,15 +53,14 @@ struct Report {
   std::vector<Plot> plots;
 };
 
-/// Returns `{published: [..], measured: [..], machine, notes}`, each row an object keyed by column names.
+/// Returns `{published: [..], measured: [..], machine, notes, plots}`, each row an object keyed by column
+/// names. NaN is null, and infinity "inf".
 std::string toJson(const Report& report);
 /// Returns both tables with aligned columns, and the notes.
 std::string toText(const Report& report);
 std::string toCsv(const Table& table);
-/// Writes NAME.json, NAME-published.csv, NAME-measured.csv and one SVG per plot, each atomically.
+/// Writes NAME.json, NAME.html with tables and plots, NAME-published.csv and NAME-measured.csv, each
+/// atomically.
 Result<Done> writeReport(const std::filesystem::path& folder, const Report& report);
-
-/// Reads the tables of a report from its JSON, for a program that runs the command and shows them.
-Result<Report> parseReport(std::string_view json, const std::string& where);
 
 }  // namespace trimtab::experiment

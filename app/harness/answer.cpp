@@ -4,11 +4,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "app/plot/svg.h"
-#include "html_model.h"
-#include "html_text.h"
 #include "trimtab/measure/machine_watch.h"
 #include "trimtab/units/not_finite.h"
+#include "words.h"
 
 namespace trimtab::harness {
 namespace {
@@ -40,7 +38,7 @@ double shareOver(const Unit& unit, double budgetMs) {
 }
 
 std::string percentText(double share) {
-  return plot::decimal(share * 100, share > 0 && share < 0.1 ? 1 : 0) + " %";
+  return fixedText(share * 100, share > 0 && share < 0.1 ? 1 : 0) + " %";
 }
 
 /// Names a unit, such as "default (proposed)".

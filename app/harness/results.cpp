@@ -157,6 +157,13 @@ Summary summarise(const Unit& unit, const Quantity& quantity) {
   return summary;
 }
 
+std::vector<double> finiteOf(const Unit& unit, const Quantity& quantity) {
+  std::vector<double> values;
+  for (const MeasuredFrame& frame : unit.frames)
+    if (const double value = quantity.of(frame); std::isfinite(value)) values.push_back(value);
+  return values;
+}
+
 PairedRatio frameTimeRatio(const Unit& a, const Unit& b, double confidence) {
   std::vector<double> ones, ratios;
   for (std::size_t i = 0; i < a.frames.size(); ++i) {

@@ -116,6 +116,8 @@ struct Summary {
   double median = 0, mean = 0, p95 = 0, p99 = 0, worst = 0;
 };
 Summary summarise(const Unit& unit, const Quantity& quantity);
+/// Returns the values of a quantity that are finite.
+std::vector<double> finiteOf(const Unit& unit, const Quantity& quantity);
 
 /// Returns the results as JSON. Numbers read back bit for bit; NaN and infinity are strings.
 std::string toJson(const Results& results);

@@ -1,10 +1,12 @@
+#include "results_json.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <map>
 
 #include "answer.h"
-#include "results.h"
 #include "trimtab/preset/json_text.h"
 #include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
@@ -12,27 +14,24 @@
 namespace trimtab::harness {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kFormat = "trimtab-bench";
 constexpr int kVersion = 1;
+/// In the order of MeasuredDifference.
+constexpr std::array kDifferences{"unknown", "none", "less", "more"};
 /// Doubles count exactly up to here.
 constexpr double kLargestWhole = 9007199254740992.0;
-
-/// JSON has no number for these; a string keeps them apart from "not there".
-Json numberJson(double value) {
-  return std::isfinite(value) ? Json(value) : Json(numberText(std::isnan(value) ? kNan : value));
-}
 
 Json nameJson(const UnitName& name) {
   return {{"flight", name.flight}, {"preset", name.preset}, {"case", name.method}};
 }
 
 Json ratioJson(const PairedRatio& ratio) {
+  const auto difference = ratio.pairs == 0 ? MeasuredDifference::unknown : differenceOf(ratio);
   return {{"median", numberJson(ratio.median)},
           {"low", numberJson(ratio.low)},
           {"high", numberJson(ratio.high)},
-          {"pairs", ratio.pairs}};
+          {"pairs", ratio.pairs},
+          {"difference", kDifferences[static_cast<std::size_t>(difference)]}};
 }
 
 /// Returns null if the frames do not say.
@@ -85,8 +84,9 @@ Json frameJson(const MeasuredFrame& frame) {
   return cells;
 }
 
-Json unitJson(const Unit& unit, double budgetMs) {
+Json unitJson(const Unit& unit, double budgetMs, const std::string& verdict) {
   Json json = nameJson(unit.name);
+  json["verdict"] = verdict;
   json["summary"] = summaryJson(answerRow(unit, budgetMs));
   json["frames_decided"] = unit.framesDecided;
   json["unknown_signals"] = unit.unknownSignals;
@@ -263,7 +263,11 @@ int readPixels(Reader& reader, const Json& value, const std::string& place) {
 
 }  // namespace
 
-std::string toJson(const Results& results) {
+Json numberJson(double value) {
+  return std::isfinite(value) ? Json(value) : Json(numberText(std::isnan(value) ? kNan : value));
+}
+
+Json documentOf(const Results& results) {
   Json json = {{"format", kFormat},
                {"format_version", kVersion},
                {"terrain", results.terrain},
@@ -278,13 +282,30 @@ std::string toJson(const Results& results) {
                {"answers", Json::array()},
                {"comparisons", Json::array()},
                {"units", Json::array()}};
-  for (const Answer& answer : answersOf(results)) json["answers"].push_back(answerJson(answer));
+  std::map<std::string, std::vector<std::string>> verdicts;  // of each flight's units, in their order
+  for (const Answer& answer : answersOf(results)) {
+    json["answers"].push_back(answerJson(answer));
+    for (std::size_t row = answer.rows.size(); row-- > 0;)
+      verdicts[answer.flight].push_back(verdictText(answer, row));
+  }
   for (const Comparison& c : results.comparisons)
     json["comparisons"].push_back({{"a", nameJson(c.a)},
                                    {"b", nameJson(c.b)},
                                    {"frame_time", ratioJson(c.frameTime)},
                                    {"reading", inWords(c.frameTime)}});
-  for (const Unit& unit : results.units) json["units"].push_back(unitJson(unit, results.budgetMs));
+  for (const Unit& unit : results.units) {
+    std::vector<std::string>& left = verdicts[unit.name.flight];
+    json["units"].push_back(unitJson(unit, results.budgetMs, left.back()));
+    left.pop_back();
+  }
+  return json;
+}
+
+std::string toJson(const Results& results) {
+  return textOf(documentOf(results));
+}
+
+std::string textOf(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

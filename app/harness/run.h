@@ -53,8 +53,4 @@ std::string_view caseName(CullingCase method);
 /// thread.
 Result<Results> run(const Plan& plan, const std::filesystem::path& folder);
 
-/// Returns a self-contained HTML page: summary, stages, counts, errors, frame time against error and images
-/// of the worst frames, which are read from `folder`.
-Result<std::string> htmlReport(const Results& results, const std::filesystem::path& folder);
-
 }  // namespace trimtab::harness

@@ -90,14 +90,11 @@ TEST_F(Builders, areInTheExperimentsTable) {
     EXPECT_GT(report->measured.number(rowOf("tree_level_0"), column), 1) << column;
   EXPECT_THAT(report->notes,
               ::testing::Contains(::testing::HasSubstr("at least n/2 and at most n triangles in a leaf")));
-  const auto parsed = experiment::parseReport(experiment::toJson(*report), "json");
-  ASSERT_TRUE(parsed);
-  EXPECT_EQ(parsed->measured.rows.size(), report->measured.rows.size());
   const auto errors = std::find_if(report->plots.begin(), report->plots.end(),
                                    [](const auto& plot) { return plot.file == "static-lod-errors"; });
   ASSERT_NE(errors, report->plots.end());
   EXPECT_EQ(errors->series.size(), 2U);
-  EXPECT_NE(toSvg(*errors).find("<svg"), std::string::npos);
+  EXPECT_TRUE(errors->logX && errors->logY);
 }
 
 }  // namespace

@@ -53,8 +53,7 @@ TEST(ExperimentCommand, printsOneDocumentAndWritesTablesAndPlots) {
   for (const char* column : {"altitude_ft", "case", "triangles", "vertices", "frame_ms", "fps"})
     EXPECT_TRUE(document.at("measured")[0].contains(column)) << column;
   EXPECT_THAT(ran.err, HasSubstr(" % 8000 ft"));
-  for (const char* name : {"culling.json", "culling-published.csv", "culling-measured.csv",
-                           "culling-triangles.svg", "culling-frame-ms.svg"})
+  for (const char* name : {"culling.json", "culling.html", "culling-published.csv", "culling-measured.csv"})
     EXPECT_GT(test::readFile((dir / "out") / name).size(), 100u) << name;
 }
 
@@ -116,7 +115,7 @@ TEST(LeverageCommand, printsOneDocumentAndWritesTableAndPicture) {
   EXPECT_EQ(document.at("frames"), 2);
   EXPECT_EQ(document.at("flight"), "yecheon-circuit.csv");
   EXPECT_EQ(json::parse(test::readFile(dir / "out" / "leverage.json")), document);
-  for (const char* name : {"leverage.csv", "leverage.svg"})
+  for (const char* name : {"leverage.csv", "leverage.html"})
     EXPECT_GT(test::readFile(dir / "out" / name).size(), 100u) << name;
   const auto losses = loadPreset((dir / "losses.json").string());
   ASSERT_TRUE(losses) << toString(losses.findings());

@@ -124,10 +124,10 @@ TEST_F(LeverageTest, measuresEachLeverFromOneEndOfItsUsualRangeToTheOther) {
   EXPECT_EQ(test::readFile(out / "leverage.json"), toJson(*leverage));
   EXPECT_THAT(test::readFile(out / "leverage.csv"),
               HasSubstr("lever,unit,condition,verdict,from,to,ms_from"));
-  const std::string svg = test::readFile(out / "leverage.svg");
+  const std::string page = test::readFile(out / "leverage.html");
   for (const char* words :
        {"time won (ms a frame)", "image lost (FLIP", "Render scale", "16 px", "medium rain", "95 % interval"})
-    EXPECT_THAT(svg, HasSubstr(words));
+    EXPECT_THAT(page, HasSubstr(words));
   const Report report = toReport(*leverage);
   EXPECT_EQ(report.measured.rows.size(), kLevers);
   EXPECT_TRUE(report.published.rows.empty());

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/experiment/page.h"
 #include "app/experiment/published.h"
 #include "app/experiment/report.h"
 #include "tests/support.h"
@@ -12,7 +13,6 @@ namespace trimtab::experiment {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// Cells of a CSV without quotes; lines that begin with # are comments.
 std::vector<std::vector<std::string>> readCsv(const std::filesystem::path& file) {
@@ -63,50 +63,49 @@ Report anyReport() {
   return report;
 }
 
-TEST(Report, readsBackFromItsJson) {
-  const Report report = anyReport();
-  const auto back = parseReport(toJson(report), "here");
-  ASSERT_TRUE(back) << toString(back.findings());
-  EXPECT_EQ(back->name, "any");
-  EXPECT_EQ(back->published.columns, report.published.columns);
-  EXPECT_EQ(back->published.number(0, "a"), 1.5);
-  EXPECT_TRUE(std::isnan(back->published.number(1, "a")));
-  EXPECT_EQ(back->published.text(0, "b"), "x, \"y\"");
-  EXPECT_EQ(back->measured.number(0, "a"), 1e-12);
-  ASSERT_EQ(back->plots.size(), 2u);
-  EXPECT_EQ(back->plots[1].categories, report.plots[1].categories);
-  EXPECT_TRUE(std::isnan(back->plots[0].series[0].y[1]));
+TEST(Report, saysTablesAndPlotsInItsJson) {
+  const auto json = nlohmann::ordered_json::parse(toJson(anyReport()));
+  EXPECT_EQ(json.at("experiment"), "any");
+  EXPECT_EQ(json.at("published")[0].at("a"), 1.5);
+  EXPECT_EQ(json.at("published")[0].at("b"), "x, \"y\"");
+  EXPECT_TRUE(json.at("published")[1].at("a").is_null()) << "NaN";
+  EXPECT_EQ(json.at("measured")[0].at("a"), 1e-12);
+  ASSERT_EQ(json.at("plots").size(), 2u);
+  EXPECT_EQ(json.at("plots")[0].at("x_label"), "x (m)");
+  EXPECT_TRUE(json.at("plots")[0].at("series")[0].at("y")[1].is_null());
+  EXPECT_EQ(json.at("plots")[1].at("categories").size(), 2u);
+  EXPECT_EQ(json.at("plots")[1].at("series")[1].at("name"), "two");
 }
 
-TEST(Report, refusesWhatIsNoReport) {
-  for (const char* text : {"", "{", "[]", "{\"experiment\":1}", "{\"experiment\":\"a\"}"}) {
-    const auto report = parseReport(text, "here");
-    ASSERT_FALSE(report) << text;
-    EXPECT_EQ(report.findings()[0].where, "here");
-  }
+TEST(Report, keepsIntervalsAndScalesOfItsPlots) {
+  Report report = anyReport();
+  report.plots[0].logX = true;
+  report.plots[1].rows = true;
+  Series& series = report.plots[1].series[0];
+  series.draw = Series::Draw::joined;
+  series.xLow = {-kInfinity, 0.5};
+  series.xHigh = {kInfinity, kNan};
+  const auto plots = nlohmann::json::parse(toJson(report)).at("plots");
+  EXPECT_EQ(plots[0].at("log_x"), true);
+  EXPECT_EQ(plots[0].at("log_y"), false);
+  EXPECT_EQ(plots[1].at("rows"), true);
+  EXPECT_EQ(plots[1].at("series")[0].at("draw"), "joined");
+  EXPECT_EQ(plots[1].at("series")[0].at("x_low"), nlohmann::json({"-inf", 0.5}));
+  EXPECT_EQ(plots[1].at("series")[0].at("x_high"), nlohmann::json({"inf", nullptr}));
+}
+
+TEST(Report, writesItsJsonItsPageAndItsTables) {
+  const test::ScratchDir dir;
+  const Report report = anyReport();
+  ASSERT_TRUE(writeReport(dir.path(), report));
+  EXPECT_EQ(test::readFile(dir / "any.json"), toJson(report));
+  EXPECT_EQ(test::readFile(dir / "any.html"), pageWith(toJson(report)));
+  EXPECT_EQ(test::readFile(dir / "any-published.csv"), toCsv(report.published));
+  EXPECT_EQ(test::readFile(dir / "any-measured.csv"), toCsv(report.measured));
 }
 
 TEST(Report, csvKeepsCommasAndQuotesInsideACell) {
   EXPECT_EQ(toCsv(anyReport().published), "a,b\n1.5,\"x, \"\"y\"\"\"\n-,\n");
-}
-
-TEST(Plot, namesAxesAndSeriesAndDrawsNothingThatIsNoNumber) {
-  for (const Plot& plot : anyReport().plots) {
-    const std::string svg = toSvg(plot);
-    EXPECT_THAT(svg, HasSubstr(plot.xLabel));
-    EXPECT_THAT(svg, HasSubstr(plot.yLabel));
-    for (const Series& series : plot.series) EXPECT_THAT(svg, HasSubstr(">" + series.name + "<"));
-    EXPECT_THAT(svg, Not(HasSubstr("nan")));
-    EXPECT_THAT(svg, Not(HasSubstr("inf")));
-  }
-  EXPECT_THAT(toSvg(anyReport().plots[0]), HasSubstr("&lt;Title&gt; &amp; more"));
-}
-
-TEST(Plot, survivesNoDataAndOneValue) {
-  EXPECT_THAT(toSvg({"f", "t", "x", "y", {}, {}}), HasSubstr("</svg>"));
-  const std::string one = toSvg({"f", "t", "x", "y", {}, {{"s", {5}, {5}}}});
-  EXPECT_THAT(one, Not(HasSubstr("nan")));
-  EXPECT_THAT(toSvg({"f", "t", "x", "y", {"only"}, {{"s", {}, {0}}}}), Not(HasSubstr("nan")));
 }
 
 TEST(Report, aFolderThatCannotBeMadeIsAFinding) {

@@ -187,12 +187,12 @@ TEST_F(BenchCommand, saysThatTheDiskIsFull) {
   EXPECT_THAT(ran.out, HasSubstr(".json")) << "what was measured is kept";
 }
 
-TEST_F(BenchCommand, putsSeveralRunsIntoOneTableAndOnePlot) {
+TEST_F(BenchCommand, putsSeveralRunsIntoOneTableAndOnePage) {
   const test::ScratchDir dir;
   ASSERT_EQ(test::run(command(dir / "a")).exitCode, 0);
   ASSERT_EQ(test::run(command(dir / "b")).exitCode, 0);
   const std::string results = cli() + " results " + (dir / "a").string() + ' ' + (dir / "b").string();
-  const test::Ran ran = test::run(results + " --json -o " + (dir / "both.svg").string());
+  const test::Ran ran = test::run(results + " --json -o " + (dir / "both.html").string());
   ASSERT_EQ(ran.exitCode, 0) << ran.err;
   const auto both = parseResults(ran.out, "standard output");
   ASSERT_TRUE(both) << toString(both.findings());
@@ -200,7 +200,7 @@ TEST_F(BenchCommand, putsSeveralRunsIntoOneTableAndOnePlot) {
   ASSERT_TRUE(one);
   ASSERT_EQ(both->units.size(), 2 * one->units.size());
   EXPECT_EQ(both->units.front().name.flight, "hop, " + one->terrain);
-  EXPECT_THAT(test::readFile(dir / "both.svg"), HasSubstr("as-published"));
+  EXPECT_THAT(test::readFile(dir / "both.html"), HasSubstr("as-published"));
 
   ASSERT_EQ(test::run(cli() + " bench --terrain " + database() + " --flight " + flight() +
                       " --size 64x48 --frames 1 --repeats 1 -o " + (dir / "small").string())
