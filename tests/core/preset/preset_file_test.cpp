@@ -178,6 +178,18 @@ TEST(PresetFile, readsAWithdrawnWayToHiddenGroundAsTheDepthMap) {
   EXPECT_THAT(*presetText(*preset), HasSubstr("\"depth_map\""));
 }
 
+TEST(PresetFile, readsTheFormerNameOfTheFormOfTerrain) {
+  auto base = loadPreset("as-published");
+  ASSERT_EQ(base->parameters.terrain.form, TerrainForm::static_trees);
+  const auto preset = loadPreset((data() / "old/version-3-terrain-form.json").string());
+  ASSERT_TRUE(preset) << toString(preset.findings());
+  EXPECT_EQ(preset->parameters.terrain.form, TerrainForm::tiles) << "not the base's trees";
+  ASSERT_EQ(preset.findings().size(), 2u);
+  EXPECT_EQ(preset.findings()[0].key, "static_lod.terrain");
+  EXPECT_EQ(preset.findings()[1].found, "levels, which was withdrawn; tiles is used");
+  EXPECT_THAT(*presetText(*preset), HasSubstr("\"terrain.form\": \"tiles\""));
+}
+
 TEST(PresetFile, andAnExportKeptFromItMeanTheSame) {
   const auto preset = loadPreset((data() / "good/everything.json").string());
   const auto exported = loadPreset((data() / "good/export.json").string());
