@@ -1,5 +1,6 @@
 #include "trimtab/host/column_map.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -79,6 +80,14 @@ Result<ColumnMap> parseColumnMap(std::string_view text) {
   }
   if (!findings.empty()) return findings;
   return map;
+}
+
+bool mapMayHelp(const Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.severity == Severity::error &&
+           (finding.found.find("map the column") != std::string::npos ||
+            finding.expected.starts_with("the columns of a "));
+  });
 }
 
 }  // namespace trimtab

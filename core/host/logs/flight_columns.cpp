@@ -5,6 +5,7 @@
 
 #include "core/host/limits.h"
 #include "foreign_file.h"
+#include "profiles.h"
 #include "trimtab/frame/frame.h"
 
 namespace trimtab {
@@ -100,6 +101,8 @@ class Search {
       : table_(table), refuse_(refuse), columns_(table.header()) {}
 
   FlightColumns found(const ColumnMap& map) {
+    const LogProfile* profile = flightProfile(table_.header());
+    if (profile) takeProfile(*profile);
     takeMap(map);
     for (std::size_t q = 0; q < kFlightQuantities; ++q) {
       const ColumnName own = columnName(nameOf(q));
@@ -112,7 +115,11 @@ class Search {
       take(other.quantity, other.names, other.units);
     }
     if (!found_.has(kAltitudeFt) && !found_.has(kHeightM)) take(kHeightM, kAltitudes, kMetres);
-    if (!complete()) refuse_("", "the columns of a flight", seemsToBe(table_.header()) + table_.beginning());
+    if (!complete())
+      refuse_(
+          "", "the columns of a flight",
+          (profile ? "what seems to be " + std::string(profile->name) + ": " : seemsToBe(table_.header())) +
+              table_.beginning());
     return std::move(found_);
   }
 
@@ -122,6 +129,19 @@ class Search {
     bool twice = false;
     found_.at[quantity] = columns_.find(names, units, twice);
     if (twice) refuse_(nameOf(quantity), "one column of this name", "two");
+  }
+
+  void takeProfile(const LogProfile& profile) {
+    found_.profile = profileText(profile);
+    const Result<ColumnMap> map = parseColumnMap(profile.columns);
+    for (const auto& [name, source] : *map) {
+      LogColumn meant;
+      const auto quantity = mappedQuantity(name, meant);
+      const auto column = columns_.find(source);
+      if (!quantity || !column) continue;
+      found_.at[*quantity] = *column;
+      found_.at[*quantity]->unit = meant.unit;
+    }
   }
 
   void takeMap(const ColumnMap& map) {

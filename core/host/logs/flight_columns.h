@@ -50,6 +50,7 @@ const FlightQuantityRow& flightQuantity(FlightQuantity quantity);
 
 struct FlightColumns {
   std::array<std::optional<LogColumn>, kFlightQuantities> at;
+  std::string profile;  ///< whose columns they are; empty if their names say so themselves
 
   bool has(FlightQuantity quantity) const { return at[quantity].has_value(); }
   /// Reports whether the attitude has to come from the track: no column holds a pitch or a roll.
@@ -59,8 +60,9 @@ struct FlightColumns {
 /// Receives key, what was expected and what was found.
 using Refuse = std::function<void(std::string, std::string, std::string)>;
 
-/// Finds the columns of a flight: those that the map names, else those with our names, else with names that
-/// others use. Refuses whatever is missing or stands twice, and says then how the table begins.
+/// Finds the columns of a flight: those that the map names, else those of a known profile, else those with
+/// our names, else with names that others use. Refuses whatever is missing or stands twice, and says then how
+/// the table begins.
 FlightColumns flightColumns(const DelimitedText& table, const ColumnMap& map, const Refuse& refuse);
 
 }  // namespace trimtab

@@ -8,6 +8,7 @@
 #include "log_angles.h"
 #include "log_time.h"
 #include "track.h"
+#include "track_file.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/host/motion.h"
 #include "trimtab/units/number.h"
@@ -16,8 +17,8 @@
 namespace trimtab {
 namespace {
 
-/// Flights have 500 rows a second to one in two minutes, and move at 10 to 1,500 m/s unless they rest.
-constexpr LogMotion kFlightMotion{0.002, 120, 10, 1500};
+/// Flights have 500 rows a second to one in ten minutes, and move at 10 to 1,500 m/s unless they rest.
+constexpr LogMotion kFlightMotion{0.002, 600, 10, 1500};
 constexpr double kLargestTime = 1e19;
 
 /// Counts rows, and remembers on which lines the first and the last of them are.
@@ -318,7 +319,8 @@ Result<Flight> Parser::parse() {
   columns_ = flightColumns(table_, map_, [this](std::string key, std::string expected, std::string found) {
     refuseAt(table_.headerPlace(), std::move(key), std::move(expected), std::move(found));
   });
-  if (errors_ > 0) return std::move(findings_);
+  if (errors_ > 0) return refused();
+  if (!columns_.profile.empty()) note("", columns_.profile);
   while (table_.nextRow()) readRow();
   wrapLongitudes();
   if (errors_ > 0) return refused();
@@ -353,7 +355,14 @@ Result<Flight> Parser::parse() {
 
 Result<Flight> parseFlightCsv(std::string_view text, const std::string& where, double defaultStepS,
                               const ColumnMap& columns) {
-  return Parser(text, where, defaultStepS, columns).parse();
+  const auto track = tableOfTrack(text, where);
+  if (!track) return Parser(text, where, defaultStepS, columns).parse();
+  if (!*track) return track->findings();
+  Result<Flight> flight = Parser(**track, where, defaultStepS, columns).parse();
+  Findings findings = track->findings();
+  findings.insert(findings.end(), flight.findings().begin(), flight.findings().end());
+  if (!flight) return findings;
+  return {std::move(*flight), std::move(findings)};
 }
 
 }  // namespace trimtab

@@ -10,6 +10,7 @@
 #include "log_angles.h"
 #include "log_columns.h"
 #include "log_time.h"
+#include "profiles.h"
 #include "trimtab/host/head_log.h"
 #include "trimtab/preset/file_io.h"
 
@@ -32,6 +33,8 @@ constexpr std::array<std::string_view, 2> kRolls{"head_roll", "roll"};
 constexpr std::array<std::string_view, 4> kQuaternion{"head_qw", "head_qx", "head_qy", "head_qz"};
 constexpr std::array kAngleUnits{Unit::degrees, Unit::radians, Unit::none};
 constexpr std::array kTimeUnits{Unit::milliseconds, Unit::seconds, Unit::microseconds, Unit::nanoseconds};
+constexpr std::array kMappedTimeUnits{Unit::milliseconds, Unit::seconds, Unit::microseconds,
+                                      Unit::nanoseconds, Unit::none};
 constexpr std::array kNoUnit{Unit::none};
 
 template <class Names>
@@ -75,7 +78,8 @@ class Reader {
   }
 
   bool findColumns();
-  void takeMap(const LogColumns& columns);
+  std::optional<LogColumn>* mapped(std::string_view name);
+  void takeMap(const LogColumns& columns, const ColumnMap& map, bool mayMiss);
   std::optional<LogColumn> find(const LogColumns& columns, std::span<const std::string_view> names,
                                 std::span<const Unit> units);
   void readRows();
@@ -118,38 +122,50 @@ std::optional<LogColumn> Reader::find(const LogColumns& columns, std::span<const
   return found;
 }
 
-void Reader::takeMap(const LogColumns& columns) {
-  for (const auto& [name, source] : map_) {
-    const ColumnName wanted = columnName(name);
-    const bool angle = wanted.unit == Unit::degrees || wanted.unit == Unit::radians;
-    std::optional<LogColumn>* meant = nullptr;
-    if (angle && holds(kHeadings, wanted.base)) meant = &columns_[kHeading];
-    if (angle && holds(kPitches, wanted.base)) meant = &columns_[kPitch];
-    if (angle && holds(kRolls, wanted.base)) meant = &columns_[kRoll];
-    const bool step = holds(kTimeSteps, wanted.base);
-    if (holds(kTimeUnits, wanted.unit) && (step || holds(kNamedTimes, wanted.base))) {
-      meant = &time_;
-      timeIsStep_ = step;
-    }
-    for (std::size_t i = 0; i < kQuaternion.size(); ++i)
-      if (name == kQuaternion[i]) meant = &quaternion_[i];
+/// Returns where a map's quantity is kept; null if no head log has one of this name.
+std::optional<LogColumn>* Reader::mapped(std::string_view name) {
+  const ColumnName wanted = columnName(name);
+  if (holds(kAngleUnits, wanted.unit)) {
+    if (holds(kHeadings, wanted.base)) return &columns_[kHeading];
+    if (holds(kPitches, wanted.base)) return &columns_[kPitch];
+    if (holds(kRolls, wanted.base)) return &columns_[kRoll];
+  }
+  for (std::size_t i = 0; i < kQuaternion.size(); ++i)
+    if (name == kQuaternion[i]) return &quaternion_[i];
+  const bool step = holds(kTimeSteps, wanted.base);
+  if (!holds(kMappedTimeUnits, wanted.unit) || (!step && !holds(kNamedTimes, wanted.base))) return nullptr;
+  timeIsStep_ = step;
+  return &time_;
+}
+
+/// Takes the columns that a map names. Those of a profile may be missing.
+void Reader::takeMap(const LogColumns& columns, const ColumnMap& map, bool mayMiss) {
+  for (const auto& [name, source] : map) {
     const auto found = columns.find(source);
-    if (!meant)
-      findings_.push_back({Severity::error, table_.headerPlace(), name,
-                           "one of time_s, time_step_s, head_heading_deg, head_pitch_deg, head_roll_deg, "
-                           "head_qw, head_qx, head_qy, head_qz",
-                           "a quantity that no head log has"});
-    else if (!found)
-      findings_.push_back({Severity::error, table_.headerPlace(), name,
-                           "one column named \"" + source.column + '"', table_.beginning()});
-    else
-      (*meant = found)->unit = wanted.unit;
+    if (!found && mayMiss) continue;
+    std::optional<LogColumn>* const place = mapped(name);
+    if (place && found) {
+      *place = found;
+      (*place)->unit = columnName(name).unit;
+      continue;
+    }
+    findings_.push_back(
+        {Severity::error, table_.headerPlace(), name,
+         place ? "one column named \"" + source.column + '"'
+               : "one of time_s, time_step_s, head_heading_deg, head_pitch_deg, head_roll_deg, head_qw, "
+                 "head_qx, head_qy, head_qz",
+         place ? table_.beginning() : "a quantity that no head log has"});
   }
 }
 
 bool Reader::findColumns() {
   const LogColumns columns(table_.header());
-  takeMap(columns);
+  if (const LogProfile* profile = headProfile(table_.header())) {
+    const Result<ColumnMap> map = parseColumnMap(profile->columns);
+    takeMap(columns, *map, true);
+    note(profileText(*profile));
+  }
+  takeMap(columns, map_, false);
   if (!time_) time_ = find(columns, kNamedTimes, kTimeUnits);
   if (!time_) time_ = find(columns, kTimes, kNoUnit);
   if (!columns_[kHeading]) columns_[kHeading] = find(columns, kHeadings, kAngleUnits);

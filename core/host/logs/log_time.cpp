@@ -120,13 +120,14 @@ std::vector<Unit> unitsThatFit(std::span<const double> times, const Pace& pace, 
     fit.push_back(unit);
     if (speed >= motion.slowest) moving.push_back(unit);
   }
-  if (fit.size() > 1 && moving.size() == 1) return moving;
   if (fit.size() == 1) return fit;
   std::vector<Unit> dates;
   for (const Unit unit : kUnits)
     if (isDate(times, unit) && (fit.empty() || std::find(fit.begin(), fit.end(), unit) != fit.end()))
       dates.push_back(unit);
-  return dates.size() == 1 ? dates : fit;
+  if (dates.size() == 1 && moving.size() == 1 && dates != moving) return {dates[0], moving[0]};
+  if (dates.size() == 1) return dates;
+  return moving.size() == 1 ? moving : fit;
 }
 
 }  // namespace
@@ -191,7 +192,7 @@ TimeReading timeReading(const TimeColumn& column, std::span<const double> times,
   }
   Unit unit = column.unit;
   if (unit == Unit::none) {
-    constexpr std::size_t kFewSteps = 5;  // do not show a rate
+    constexpr std::size_t kFewSteps = 5;  // these do not show a rate
     const Pace pace = paceOf(times, moved);
     const std::vector<Unit> fit = unitsThatFit(times, pace, motion);
     if (fit.size() > 1 && pace.steps >= kFewSteps) {

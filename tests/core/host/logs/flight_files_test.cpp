@@ -83,22 +83,105 @@ constexpr FlightCase kSameFlight[] = {
      "heading_deg=H+0"},
 };
 
+void expectTheFlight(const FlightCase& c) {
+  const Result<Flight> flight = parsed(c);
+  ASSERT_TRUE(flight) << c.name << ": " << toString(flight.findings());
+  EXPECT_TRUE(tells(flight.findings(), c.says)) << c.name << ": " << toString(flight.findings());
+  ASSERT_EQ(flight->states.size(), 2U) << c.name;
+  const AircraftState &a = flight->states[0], &b = flight->states[1];
+  EXPECT_NEAR(b.time - a.time, 0.2, 1e-6) << c.name;
+  EXPECT_NEAR(a.position.latitude.value(), 52.3, 1e-9) << c.name;
+  EXPECT_NEAR(b.position.latitude.value(), 52.3002, 1e-9) << c.name;
+  EXPECT_NEAR(a.position.longitude.value(), 4.75, 1e-9) << c.name;
+  EXPECT_NEAR(b.position.height.in<Feet>(), 1202, 1e-5) << c.name;
+  EXPECT_NEAR(b.attitude.pitch.value(), -2.5, 1e-5) << c.name;
+  EXPECT_NEAR(b.attitude.roll.value(), 4, 1e-5) << c.name;
+  EXPECT_NEAR(b.attitude.heading.value(), 271, 1e-4) << c.name;
+}
+
 TEST(FlightFiles, readOneFlightHoweverItIsWritten) {
-  for (const FlightCase& c : kSameFlight) {
-    const Result<Flight> flight = parsed(c);
-    ASSERT_TRUE(flight) << c.name << ": " << toString(flight.findings());
-    EXPECT_TRUE(tells(flight.findings(), c.says)) << c.name << ": " << toString(flight.findings());
-    ASSERT_EQ(flight->states.size(), 2U) << c.name;
-    const AircraftState &a = flight->states[0], &b = flight->states[1];
-    EXPECT_NEAR(b.time - a.time, 0.2, 1e-6) << c.name;
-    EXPECT_NEAR(a.position.latitude.value(), 52.3, 1e-9) << c.name;
-    EXPECT_NEAR(b.position.latitude.value(), 52.3002, 1e-9) << c.name;
-    EXPECT_NEAR(a.position.longitude.value(), 4.75, 1e-9) << c.name;
-    EXPECT_NEAR(b.position.height.in<Feet>(), 1202, 1e-5) << c.name;
-    EXPECT_NEAR(b.attitude.pitch.value(), -2.5, 1e-5) << c.name;
-    EXPECT_NEAR(b.attitude.roll.value(), 4, 1e-5) << c.name;
-    EXPECT_NEAR(b.attitude.heading.value(), 271, 1e-4) << c.name;
-  }
+  for (const FlightCase& c : kSameFlight) expectTheFlight(c);
+}
+
+/// The same flight as programs write it, told by the names of their columns.
+constexpr FlightCase kProfiles[] = {
+    {"X-Plane",
+     "\n   _real,_time |   _totl,_time |   pitch,__deg |   _roll,__deg |   hding,_true |   hding,__mag |   "
+     "__lat,__deg |"
+     "   __lon,__deg |   __alt,ftmsl |   __alt,ftagl |\n"
+     "  7.5 | 20.0 | -2.5 | 4.0 | 271.0 | 269.0 | 52.3 | 4.75 | 1200.0 | 1150.0 |\n"
+     "  7.7 | 20.2 | -2.5 | 4.0 | 271.0 | 269.0 | 52.3002 | 4.75 | 1202.0 | 1152.0 |\n",
+     "the columns of an X-Plane Data.txt"},
+    {"G1000",
+     "#airframe_info, log_version=\"1.00\"\n#yyy-mm-dd, hh:mm:ss, hh:mm, degrees, degrees, ft msl, deg, deg, "
+     "deg\n"
+     "  Lcl Date, Lcl Time, UTCOfst,   Latitude,  Longitude, AltMSL, Pitch, Roll, HDG\n"
+     "2023-05-06, 09:59:59,  +02:00,           ,           ,       ,      ,     ,\n"
+     "2023-05-06, 10:00:00,  +02:00, 52.3000000,  4.7500000, 1200.0, -2.50, 4.00, 271.0\n"
+     "2023-05-06, 10:00:00.2,  +02:00, 52.3002000,  4.7500000, 1202.0, -2.50, 4.00, 271.0\n",
+     "HDG is the magnetic heading"},
+    {"JSBSim",
+     "Time,V_{Total} (ft/s),Altitude ASL (ft),Altitude AGL (ft),Phi (deg),Theta (deg),Psi (deg),Latitude "
+     "(deg),"
+     "Longitude (deg)\n0.5,170,1200,1150,4,-2.5,271,52.3,4.75\n0.7,170,1202,1152,4,-2.5,271,52.3002,4.75\n",
+     "the columns of a JSBSim output"},
+    {"PlotJuggler",
+     "__time,/a/latitude_deg,/a/longitude_deg,/a/altitude_ft,/a/pitch_deg,/a/roll_deg,/a/heading_deg\n"
+     "1600000000.5,52.3,4.75,1200,-2.5,4,271\n1600000000.7,52.3002,4.75,1202,-2.5,4,271\n",
+     "PlotJuggler"},
+};
+
+TEST(FlightFiles, ofKnownProgramsNeedNoMap) {
+  for (const FlightCase& c : kProfiles) expectTheFlight(c);
+  const auto xplane = parsed(kProfiles[0]);
+  EXPECT_NEAR(xplane->states[0].aboveGround->in<Feet>(), 1150, 1e-6);
+  FlightCase other = kProfiles[0];
+  other.columns = "time_s=\"_real,_time\",heading_deg=\"hding,__mag\"";
+  EXPECT_EQ(parsed(other)->states[0].time, 7.5) << "a map counts before a profile";
+  EXPECT_EQ(parsed(other)->states[0].attitude.heading.value(), 269);
+}
+
+TEST(FlightFiles, ofFlightradar24HaveThePlaceInOneCell) {
+  const auto flight = parseFlightCsv(
+      "Timestamp,UTC,Callsign,Position,Altitude,Speed,Direction\n1600000000,2020-09-13T12:26:40Z,X,\"50.5,6."
+      "25\",2000,90,45\n"
+      "1600000060,2020-09-13T12:27:40Z,X,\"50.51,6.26\",2100,90,46\n",
+      "fr.csv");
+  ASSERT_TRUE(flight) << toString(flight.findings());
+  EXPECT_EQ(flight->states[1].position.latitude.value(), 50.51);
+  EXPECT_EQ(flight->states[1].position.longitude.value(), 6.26);
+  EXPECT_EQ(flight->durationS(), 60);
+  EXPECT_EQ(flight->states[0].attitude.heading.value(), 45);
+  EXPECT_GT(flight->states[0].attitude.pitch.value(), 0);
+}
+
+TEST(FlightFiles, ofTracksGetTheirAttitudeFromTheTrack) {
+  const auto gpx = parseFlightCsv(
+      "<?xml version='1.0'?>\n<gpx creator='t'><trk><trkseg>\n"
+      "<trkpt lat=\"46.5\" lon=\"7.25\"><ele>1500</ele><time>2022-02-03T04:05:06Z</time></trkpt>\n"
+      "<trkpt lon='7.25' lat='46.501'><time>2022-02-03T04:05:08Z</time><ele>1520.5</ele></trkpt>\n"
+      "<trkpt lat=\"46.502\" lon=\"7.25\"><ele>1530</ele></trkpt></trkseg></trk></gpx>\n",
+      "t.gpx");
+  ASSERT_TRUE(gpx) << toString(gpx.findings());
+  ASSERT_EQ(gpx->states.size(), 2U);
+  EXPECT_TRUE(tells(gpx.findings(), "1 that lack one of them"));
+  EXPECT_EQ(gpx->states[1].time, 2);
+  EXPECT_EQ(gpx->states[1].position.height.value(), 1520.5);
+  EXPECT_NEAR(gpx->states[0].attitude.heading.value(), 0, 0.1);
+  EXPECT_NEAR(gpx->states[0].attitude.pitch.value(), 10.4, 0.1);
+
+  const auto igc = parseFlightCsv(
+      "AXYZ123\r\nHFDTE030222\r\nB2359584630000N00715000EA0140001500\r\n"
+      "B0000024630060N00715000EV0141000000\r\nGABCDEF\r\n",
+      "t.igc");
+  ASSERT_TRUE(igc) << toString(igc.findings());
+  ASSERT_EQ(igc->states.size(), 2U);
+  EXPECT_EQ(igc->states[1].time, 4) << "after midnight";
+  EXPECT_NEAR(igc->states[1].position.latitude.value(), 46.501, 1e-9);
+  EXPECT_EQ(igc->states[0].position.height.value(), 1500);
+  EXPECT_EQ(igc->states[1].position.height.value(), 1410) << "no GNSS height in this fix";
+  EXPECT_TRUE(tells(parseFlightCsv("<gpx><trkpt lat=\"1\" lon=\"2\"></trkpt></gpx>", "t.gpx").findings(),
+                    "all of which lack"));
 }
 
 constexpr FlightCase kRefusedFlights[] = {

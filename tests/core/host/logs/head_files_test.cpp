@@ -134,6 +134,12 @@ TEST(HeadFiles, readOneMotionHoweverItIsWritten) {
                     return std::array<double, 4>{0.02, p.yaw, p.pitch, p.roll};
                   }),
             "", "time_step_s=dt"},
+           {"opentrack",
+            logOf("dt,rawYaw,rawPitch,rawRoll", "%.3f,%.2f,%.2f,%.2f",
+                  [](const Pose& p) {
+                    return std::array<double, 4>{0.02, p.yaw, p.pitch, p.roll};
+                  }),
+            "the columns of an opentrack log"},
        })
     expectMotion(c);
 }

@@ -24,4 +24,7 @@ using ColumnMap = std::map<std::string, ColumnSource, std::less<>>;
 /// Findings name each part that is no assignment.
 Result<ColumnMap> parseColumnMap(std::string_view text);
 
+/// Reports whether a file was refused for its columns, so that a map may say what they are.
+bool mapMayHelp(const Findings& findings);
+
 }  // namespace trimtab
