@@ -188,6 +188,8 @@ TimeReading timeReading(const TimeColumn& column, std::span<const double> times,
   if (column.clock) {
     reading.fromFirst = true;
     say(Severity::note, "", "times of a clock: they are read as seconds from the first row on");
+    if (times.back() - times.front() > kLongestS)
+      say(Severity::error, "times of one recording", "times thousands of years apart");
     return reading;
   }
   Unit unit = column.unit;
