@@ -394,7 +394,8 @@ std::string DelimitedText::beginning() const {
     return text + (cells.size() > kMost ? ", ..." : "");
   };
   return (hasHeader_ ? "the columns " + list(header_)
-                     : "no header over " + std::to_string(header_.size()) + " columns") +
+                     : "no header over " + std::to_string(header_.size()) +
+                           " columns, which a map names by number, as latitude_deg=#1") +
          (firstRow_.empty() ? " and no row" : "; the first row is " + list(firstRow_));
 }
 

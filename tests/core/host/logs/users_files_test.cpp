@@ -60,5 +60,27 @@ TEST(UsersFlights, areReadRightOrRefused) {
   EXPECT_EQ(same, 18U);
 }
 
+TEST(UsersFlights, ofOtherProgramsAreReadOrRefusedWithWhatToDo) {
+  TRIMTAB_NEEDS_SHARED("cases/hosts/flightlogs");
+  for (const auto& [name, says] :
+       {std::pair{"xplane_data.txt", "an X-Plane Data.txt"},
+        {"g1000.csv", "a Garmin G1000's log"},
+        {"fr24.csv", "a Flightradar24 track"},
+        {"t.igc", "fixes of an IGC log: 2"},
+        {"t.gpx", "points of a GPX track: 1"},
+        {"flytrex.csv", "derived from the track"},
+        {"noattitude.csv", "derived from the track"},
+        {"metres_agl_sim_trace.csv", ""},
+        {"iso.csv", "altitude_ft=altitude or altitude_m=altitude"},
+        {"fg_generic_headerless.csv", "a map names by number, as latitude_deg=#1"}}) {
+    const Result<Flight> flight = readFlight(sharedDir() / "cases/hosts/flightlogs" / name);
+    const std::string file = name;
+    EXPECT_EQ(flight.ok(), file != "iso.csv" && file != "fg_generic_headerless.csv")
+        << toString(flight.findings());
+    EXPECT_NE(toString(flight.findings()).find(says), std::string::npos)
+        << name << toString(flight.findings());
+  }
+}
+
 }  // namespace
 }  // namespace trimtab
