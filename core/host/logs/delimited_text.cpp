@@ -341,9 +341,10 @@ bool DelimitedText::namesCells(const std::vector<std::string_view>& sample, Find
     most = cells;
   }
   if (most == 0) return true;
-  findings.push_back(error(headerPlace(),
-                           "a name for each of the " + std::to_string(most) + " cells of a row",
-                           std::to_string(header_.size()) + " names: name the other columns, too"));
+  findings.push_back(
+      error(headerPlace(), "a name for each of the " + std::to_string(most) + " cells of a row",
+            std::to_string(header_.size()) + std::string(" names: name the other columns, too") +
+                (delimiter_ == ',' ? ", or separate columns by semicolons if commas are decimal" : "")));
   return false;
 }
 

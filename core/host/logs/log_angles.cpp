@@ -11,7 +11,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 /// A step this near to a turn of radians is a wrap: as degrees, it would be a jump across all that is
 /// recorded.
-constexpr double kWrap = 5;
+constexpr double kWrap = 5.8;
 
 double largest(const std::vector<double>& angles) {
   double most = 0;

@@ -138,6 +138,8 @@ std::optional<double> readClock(std::string_view cell) {
   std::string_view rest = text;
   if (takeDate(rest, date) && (take(rest, 'T') || take(rest, 't') || take(rest, ' ')))
     text = rest;
+  else if (std::count(text.begin(), text.end(), ':') != 2)
+    return std::nullopt;  // 12:34 may be hours and minutes, or minutes and seconds
   else
     date = 0;
   if (!takeTimeOfDay(text, seconds)) return std::nullopt;
@@ -206,6 +208,9 @@ TimeReading timeReading(const TimeColumn& column, std::span<const double> times,
     }
     unit = fit.size() == 1 ? fit[0] : Unit::seconds;
     reading.fromFirst = isDate(times, unit);
+    if (fit.empty() && pace.steps >= kFewSteps)
+      say(Severity::warning, "steps of time that seconds, milliseconds or less fit",
+          numberText(pace.step, 3) + ": name the unit, or map the column, as time_s=" + column.name + "*60");
     say(Severity::note, "",
         std::string("times name no unit: read as ") + nameOf(unit) +
             (reading.fromFirst ? " since 1970" : ""));

@@ -102,6 +102,7 @@ TEST(DelimitedText, saysWhatIsNoTable) {
                                    {"<!DOCTYPE html><html>", "HTML"},
                                    {"PK\x03\x04...", "Excel"},
                                    {"a,b\n1,2,3\n4,5,6\n", "a name for each of the 3 cells"},
+                                   {"a,b\n0,5,7,25\n0,75,8,5\n", "if commas are decimal"},
                                    {"\n#\n", "an empty file"}})
     EXPECT_NE(tableOf(text).told.find(says), std::string::npos) << tableOf(text).told;
 }

@@ -206,6 +206,9 @@ constexpr FlightCase kRefusedFlights[] = {
      "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n"
      "0,52.3,-4.75,1200,-2.5,4,271\n0.2,52.3,184.75,1202,-2.5,4,271\n",
      "f.csv:3: longitude_deg: expected a number in -180..180, found 184.75"},
+    {"a clock of two parts",
+     "time,latitude_deg,longitude_deg,altitude_ft\n00:01,52.3,4.75,1200\n00:02,52.3,4.76,1200\n",
+     "time_s: expected a number, a date with a time or hh:mm:ss, found 00:01"},
     {"a map of what is not there", "time_s,latitude_deg,longitude_deg,altitude_ft\n0,52.3,4.75,1200\n",
      "pitch_deg: expected one column named \"Theta\"", "pitch_deg=Theta"},
     {"a map of a quantity that no flight has",
@@ -219,6 +222,15 @@ TEST(FlightFiles, areRefusedWithASentenceThatSaysWhatToDo) {
     EXPECT_FALSE(flight) << c.name;
     EXPECT_TRUE(tells(flight.findings(), c.says)) << c.name << ": " << toString(flight.findings());
   }
+}
+
+TEST(FlightFiles, ofWhoseTimesNoUnitFitsAreWarnedOf) {
+  std::string text = "time,latitude_deg,longitude_deg,altitude_ft\n";
+  for (int minutes = 0; minutes < 8; ++minutes)
+    text += std::to_string(minutes / 60.0) + ",52.3," + std::to_string(4.75 + minutes * 0.05) + ",1200\n";
+  const auto flight = parseFlightCsv(text, "hours.csv");
+  ASSERT_TRUE(flight) << toString(flight.findings());
+  EXPECT_TRUE(tells(flight.findings(), "map the column, as time_s=time*60")) << toString(flight.findings());
 }
 
 TEST(FlightFiles, takeLongitudesTo360AsWest) {
