@@ -11,10 +11,10 @@
 #include "app/harness/run.h"
 #include "app/harness/sweep.h"
 #include "app/harness/text.h"
+#include "app/link/log_options.h"
 #include "commands.h"
 #include "progress.h"
 #include "settings.h"
-#include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/terrain/bake/cache.h"
 
@@ -22,7 +22,7 @@ namespace trimtab::cli {
 namespace {
 
 struct BenchOptions {
-  std::string terrain, output, cases = "none,view_frustum,proposed", size = "1280x720";
+  std::string terrain, output, columns, cases = "none,view_frustum,proposed", size = "1280x720";
   std::vector<std::string> flights, presets{"default"}, settings, sweeps;
   std::size_t frames = 60, repeats = 5;
   bool whole = false, json = false;
@@ -74,7 +74,7 @@ std::vector<AircraftState> statesOf(const std::vector<TraceRow>& trace) {
 bool readFlights(const BenchOptions& arguments, harness::Plan& plan) {
   bool usable = true;
   for (const std::string& file : arguments.flights) {
-    Result<Flight> flight = readFlight(file);
+    Result<Flight> flight = link::openFlightOption(file, arguments.columns);
     report(flight.findings());
     if (!flight) {
       usable = false;
@@ -169,6 +169,7 @@ void addBench(CLI::App& app, int& exitCode) {
   command->add_option("--terrain", arguments->terrain, "Database, or elevation to bake")->required();
   command->add_option("--flight", arguments->flights, "Flights (CSV, trace or capture); one or more")
       ->required();
+  command->add_option("--columns", arguments->columns, link::kColumnsHelp);
   command->add_option("--preset", arguments->presets, "Presets or exports; the first is compared against")
       ->capture_default_str();
   command->add_option("--cases", arguments->cases, "Culling cases, with commas between")

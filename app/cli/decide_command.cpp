@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "app/link/log_options.h"
 #include "commands.h"
 #include "settings.h"
 #include "trimtab/decision/decide.h"
-#include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/policy/compiled_policy.h"
 #include "trimtab/preset/policy_lines.h"
@@ -24,7 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct DecideOptions {
-  std::string preset = "default", flight;
+  std::string preset = "default", flight, columns;
   std::vector<std::string> settings;
   std::optional<double> altitudeFt, pitchDeg, aboveGroundFt;
   double rollDeg = 0, headingDeg = 0;
@@ -93,9 +93,9 @@ Result<Decided> decideTrace(const std::string& file, const ValidatedParameters& 
   return Result<Decided>(std::move(decided), trace.findings());
 }
 
-Result<Decided> decideFlight(const std::string& file, const ValidatedParameters& parameters) {
-  if (isTraceFile(file)) return decideTrace(file, parameters);
-  const Result<Flight> flight = readFlight(file);
+Result<Decided> decideFlight(const DecideOptions& options, const ValidatedParameters& parameters) {
+  if (isTraceFile(options.flight)) return decideTrace(options.flight, parameters);
+  const Result<Flight> flight = link::openFlightOption(options.flight, options.columns);
   if (!flight) return flight.findings();
   Decided decided;
   decided.rows.reserve(flight->states.size());
@@ -272,7 +272,7 @@ int run(const DecideOptions& options) {
   const std::optional<ValidatedParameters> parameters = parametersFor(options.preset, options.settings);
   if (!parameters) return kRefused;
   const Result<Decided> decided =
-      options.flight.empty() ? decideOne(options, *parameters) : decideFlight(options.flight, *parameters);
+      options.flight.empty() ? decideOne(options, *parameters) : decideFlight(options, *parameters);
   report(decided.findings());
   if (!decided) return kRefused;
   if (options.json)
@@ -294,6 +294,7 @@ void addDecide(CLI::App& app, int& exitCode) {
   command->add_option("--preset", options->preset, "A shipped preset's name or a preset file")
       ->capture_default_str();
   CLI::Option* flight = command->add_option("--flight", options->flight, "A flight, a capture or a trace");
+  command->add_option("--columns", options->columns, link::kColumnsHelp)->needs(flight);
   CLI::Option* altitude = command->add_option("--altitude-ft", options->altitudeFt,
                                               "Altitude, above what the preset's altitude reference says");
   CLI::Option* pitch = command->add_option("--pitch-deg", options->pitchDeg, "Pitch, nose up positive");

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/experiment/experiment.h"
+#include "app/link/log_options.h"
 #include "commands.h"
 #include "experiment_setup.h"
 #include "progress.h"
@@ -89,6 +90,7 @@ void addExperiment(CLI::App& app, int& exitCode) {
       command->add_option("--strain", hold.strain, "Only this strain: sweep, head log, weather, or steady")
           ->check(CLI::IsMember({"sweep", "head log", "weather", "steady"}));
       command->add_option("--head", arguments->setup.head, "Head log, or sweep:DEG/S; bad rows are left out");
+      command->add_option("--head-columns", arguments->setup.headColumns, link::kHeadColumnsHelp);
     }
     command->add_option("-o,--output", arguments->output, "Folder for JSON, CSV and a page with plots");
     command->add_flag("--json", arguments->json, "One JSON document on standard output");

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
+#include "app/link/log_options.h"
 #include "commands.h"
 #include "progress.h"
 #include "settings.h"
-#include "trimtab/host/flight.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/terrain/bake/cache.h"
@@ -16,6 +16,7 @@ namespace trimtab::cli {
 void SetupArguments::addTo(CLI::App& command) {
   command.add_option("--terrain", terrain, "Database, or elevation to bake")->required();
   command.add_option("--flight", flight, "Places to look from; without it the terrain's own");
+  command.add_option("--columns", columns, link::kColumnsHelp);
   command.add_option("--preset", preset, "Preset or export")->capture_default_str();
   command.add_option("--set", settings, "KEY=VALUE on top of the preset; may be repeated");
   command.add_option("--size", size, "Render size")->capture_default_str();
@@ -32,15 +33,14 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
   const std::optional<ValidatedParameters> parameters = parametersFor(arguments.preset, arguments.settings);
   usable = parameters && usable;
   if (!arguments.flight.empty()) {
-    Result<Flight> flight = readFlight(arguments.flight);
+    Result<Flight> flight = link::openFlightOption(arguments.flight, arguments.columns);
     report(flight.findings());
     usable = flight && usable;
     if (flight) setup.flight = std::move(flight).value();
   }
   setup.hold = arguments.hold;
   if (!arguments.head.empty()) {
-    Result<HeadLog> head = isSweep(arguments.head) ? parseSweep(arguments.head)
-                                                   : readHeadLog(arguments.head, BadRows::leave_out);
+    Result<HeadLog> head = link::openHeadOption(arguments.head, true, arguments.headColumns);
     report(head.findings());
     usable = head && usable;
     if (head) setup.hold.head = std::move(head).value();

@@ -12,12 +12,12 @@ namespace trimtab::cli {
 
 /// The options that say what an experiment runs on.
 struct SetupArguments {
-  std::string terrain, flight, preset = "default", size = "1280x720";
+  std::string terrain, flight, columns, preset = "default", size = "1280x720";
   std::vector<std::string> settings;
   int repeats = 3;
   double hostRateHz = 200;
   experiment::HoldSetup hold;
-  std::string head;  ///< a log or a sweep; empty: none
+  std::string head, headColumns;  ///< a log or a sweep; empty: none
 
   void addTo(CLI::App& command);
 };

@@ -1,12 +1,11 @@
 #include <cstdio>
 #include <memory>
 
-#include "app/link/head_option.h"
 #include "app/link/link.h"
+#include "app/link/log_options.h"
 #include "commands.h"
 #include "feed_work.h"
 #include "progress.h"
-#include "trimtab/host/flight.h"
 
 namespace trimtab::cli {
 namespace {
@@ -17,7 +16,7 @@ int play(const FeedOptions& options) {
     report(to.findings());
     return kUsage;
   }
-  auto flight = readFlight(options.flight);
+  auto flight = link::openFlightOption(options.flight, options.columns);
   report(flight.findings());
   if (!flight) return kRefused;
   const double durationS = flight->durationS();
@@ -30,7 +29,7 @@ int play(const FeedOptions& options) {
   }
   link::PlayOptions how;
   if (!options.head.empty()) {
-    auto head = link::openHeadOption(options.head, options.skipBadRows);
+    auto head = link::openHeadOption(options.head, options.skipBadRows, options.headColumns);
     report(head.findings());
     if (!head) return kRefused;
     how.head = std::move(*head);
@@ -153,6 +152,8 @@ void addFeed(CLI::App& app, int& exitCode) {
   playing->add_option("flight", options->flight, "Flight CSV, decision trace or .pcap of a host")->required();
   playing->add_option("--head", options->head,
                       "Head log, or sweep:DEG/S[/WAIT] or nod:DEG/S[/WAIT], sent as View Control (cigi3)");
+  playing->add_option("--columns", options->columns, link::kColumnsHelp);
+  playing->add_option("--head-columns", options->headColumns, link::kHeadColumnsHelp);
   playing->add_flag("--skip-bad-rows", options->skipBadRows,
                     "Read the head log without the rows that cannot be used");
   playing->add_option("--to", options->to, "HOST:PORT")->required();

@@ -47,8 +47,8 @@ class EverySecond {
 };
 
 struct FeedOptions {
-  std::string flight, head, to, out, protocol = "cigi3", listenProtocol = "auto", reply,
-                                     bind = link::kOwnMachine, from = link::kAnyone;
+  std::string flight, columns, head, headColumns, to, out, protocol = "cigi3", listenProtocol = "auto", reply,
+                                                           bind = link::kOwnMachine, from = link::kAnyone;
   double rateHz = 60, speed = 1, startS = 0;
   bool loop = false;
   bool skipBadRows = false;  ///< of the head log

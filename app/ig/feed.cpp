@@ -4,9 +4,9 @@
 #include <iostream>
 #include <limits>
 #include <string>
-#include "app/link/head_option.h"
 #include "app/link/link.h"
 #include "app/link/link_watch.h"
+#include "app/link/log_options.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/host/received_state.h"
 
@@ -119,7 +119,7 @@ Result<std::unique_ptr<Feed>> openFlight(const Options& options) {
     Findings notes = rows.findings();
     return {std::make_unique<TraceFeed>(std::move(rows).value()), std::move(notes)};
   }
-  Result<Flight> flight = readFlight(options.flight);
+  Result<Flight> flight = link::openFlightOption(options.flight.string(), options.columns);
   if (!flight) return flight.findings();
   if (flight->states.empty()) return empty();
   Findings notes = flight.findings();
@@ -138,7 +138,7 @@ Result<HeadInput> openHeadInput(const Options& options) {
                    {},
                    "a flight, or a trace with --realtime",
                    options.flight.string() + ", a trace that brings its heads"};
-  Result<HeadLog> log = link::openHeadOption(options.head, options.skipBadRows);
+  Result<HeadLog> log = link::openHeadOption(options.head, options.skipBadRows, options.headColumns);
   if (!log) return log.findings();
   Findings notes = log.findings();
   head.useLog(std::move(log).value());

@@ -7,6 +7,8 @@
 #include <iostream>
 #include <map>
 
+#include "app/link/log_options.h"
+
 namespace trimtab::ig {
 namespace {
 
@@ -59,10 +61,12 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       ->transform(CLI::CheckedTransformer(protocols));
   auto* flight =
       app.add_option("--flight", options.flight, "flight (CSV, pcap) or decision trace: one frame a row");
+  app.add_option("--columns", options.columns, link::kColumnsHelp)->needs(flight);
   app.add_flag("--realtime", options.realtime, "play the flight on its own clock")->needs(flight);
   app.add_option(
       "--head", options.head,
       "head log, or sweep:DEG/S[/WAIT] or nod:DEG/S[/WAIT], in place of the heads of host or flight");
+  app.add_option("--head-columns", options.headColumns, link::kHeadColumnsHelp);
   app.add_flag("--skip-bad-rows", options.skipBadRows,
                "read the head log without the rows that cannot be used");
   app.add_flag("--headless", options.headless, "draw without a window");

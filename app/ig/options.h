@@ -21,8 +21,9 @@ struct Options {
   std::string reply;                                   ///< HOST:PORT, empty for none
   HostProtocol protocol = HostProtocol::automatic;
   std::filesystem::path flight;
-  std::string head;          ///< a head log or a sweep; empty: the head in the states
-  bool skipBadRows = false;  ///< ignore unusable rows of the head log
+  std::string columns, headColumns;  ///< maps of the columns of flight and head log
+  std::string head;                  ///< a head log or a sweep; empty: the head in the states
+  bool skipBadRows = false;          ///< ignore unusable rows of the head log
   bool realtime = false;
   bool headless = false;
   int width = 1280, height = 720;

@@ -166,7 +166,8 @@ Result<Flight> flightFromDatagrams(std::span<const CapturedDatagram> datagrams, 
 
 namespace {
 
-Result<Flight> readAnyFlight(const std::filesystem::path& file, double defaultStepS) {
+Result<Flight> readAnyFlight(const std::filesystem::path& file, double defaultStepS,
+                             const ColumnMap& columns) {
   const std::string where = file.string();
   const Result<std::string> read = readWhole(file, kLargestRecording);
   if (!read) return read.findings();
@@ -177,7 +178,7 @@ Result<Flight> readAnyFlight(const std::filesystem::path& file, double defaultSt
   const bool capture = begins("\xa1\xb2\xc3\xd4") || begins("\xd4\xc3\xb2\xa1") ||
                        begins("\xa1\xb2\x3c\x4d") || begins("\x4d\x3c\xb2\xa1") || begins("\x0a\x0d\x0d\x0a");
   const auto parse = [&]() -> Result<Flight> {
-    if (!capture) return parseFlightCsv(bytes, where, defaultStepS);
+    if (!capture) return parseFlightCsv(bytes, where, defaultStepS, columns);
     const auto datagrams = parsePcap(bytes, where);
     if (!datagrams) return datagrams.findings();
     auto flight = flightFromDatagrams(*datagrams, where);
@@ -193,8 +194,8 @@ Result<Flight> readAnyFlight(const std::filesystem::path& file, double defaultSt
 
 }  // namespace
 
-Result<Flight> readFlight(const std::filesystem::path& file, double defaultStepS) {
-  return withinMemory(file, [&] { return readAnyFlight(file, defaultStepS); });
+Result<Flight> readFlight(const std::filesystem::path& file, double defaultStepS, const ColumnMap& columns) {
+  return withinMemory(file, [&] { return readAnyFlight(file, defaultStepS, columns); });
 }
 
 AircraftState stateAt(const Flight& flight, double time) {

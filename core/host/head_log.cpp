@@ -66,8 +66,8 @@ Result<HeadLog> parseSweep(std::string_view text) {
   return log;
 }
 
-Result<HeadLog> openHead(const std::string& text, BadRows badRows) {
-  return isSweep(text) ? parseSweep(text) : readHeadLog(text, badRows);
+Result<HeadLog> openHead(const std::string& text, BadRows badRows, const ColumnMap& columns) {
+  return isSweep(text) ? parseSweep(text) : readHeadLog(text, badRows, columns);
 }
 
 Attitude headAt(const HeadLog& log, double timeS) {

@@ -151,6 +151,26 @@ TEST(DecideCommand, refusesBadInputWithStatusOne) {
   }
 }
 
+TEST(DecideCommand, takesAMapOfColumnsAndSaysWhereOneHelps) {
+  const test::ScratchDir dir;
+  const std::string flight = "--csv --flight " + (dir / "other.csv").string();
+  test::writeFile(dir / "own.csv",
+                  "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n"
+                  "0,45,9,3280.5,2,0,90\n1,45,9.001,3281.5,2,0,90\n");
+  test::writeFile(dir / "other.csv", "ms;N;E;Alt;P;B;H\n0;45;9;3270,5;2;0;90\n1000;45;9,001;3271,5;2;0;90\n");
+  const Ran mapped = decideBy(flight +
+                              " --columns 'time_ms=ms,latitude_deg=N,longitude_deg=#3,altitude_ft=Alt+10,"
+                              "pitch_deg=P,roll_deg=B,heading_deg=H'");
+  EXPECT_EQ(mapped.exitCode, 0) << mapped.err;
+  EXPECT_EQ(mapped.out, decideBy("--csv --flight " + (dir / "own.csv").string()).out);
+  const Ran refused = decideBy(flight);
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_THAT(refused.err, HasSubstr("--columns: expected a map of columns, as latitude_deg=Lat"));
+  EXPECT_THAT(refused.err, HasSubstr("the columns \"ms\", \"N\""));
+  EXPECT_THAT(decideBy(flight + " --columns latitude_deg").err,
+              HasSubstr("columns: latitude_deg: expected QUANTITY=COLUMN"));
+}
+
 TEST(DecideCommand, refusesWhatNoAircraftDoesNamingTheRange) {
   const std::pair<std::string, std::string> refused[] = {
       {"--altitude-ft 0 --pitch-deg 400", "--pitch-deg: expected -90..90 deg, found 400"},

@@ -195,6 +195,13 @@ TEST(FeedCommand, sendsAHeadAsViewControl) {
   EXPECT_EQ(fdm.exitCode, 1);
   EXPECT_NE(fdm.err.find("View Control"), std::string::npos) << fdm.err;
   EXPECT_EQ(run(play + " --protocol cigi3 --head absent.csv").exitCode, 1);
+
+  writeFile(dir / "head.csv", "t,Links,Hoch\n0,1,2\n0.02,2,2\n0.04,3,2\n");
+  const std::string head = play + " --protocol cigi3 --seconds 0.1 --head " + (dir / "head.csv").string();
+  EXPECT_NE(run(head).err.find("--head-columns: expected a map of columns"), std::string::npos)
+      << run(head).err;
+  const Ran mapped = run(head + " --head-columns head_heading_deg=Links*-1,head_pitch_deg=Hoch");
+  EXPECT_EQ(mapped.exitCode, 0) << mapped.err;
 }
 
 TEST(FeedCommand, sendsSymbolsWithEachPacket) {

@@ -36,12 +36,15 @@ TEST(HeadLog, readsItsOwnColumnsFromTheFirstRowsTimeOn) {
 }
 
 TEST(HeadLog, takesUnitsFromNamesElseFromTheAngles) {
-  EXPECT_NEAR(parsed("t heading pitch\n0 3.1 0.1\n").samples[0].headingDeg, 177.6, 0.1);
+  EXPECT_NEAR(parsed("t heading pitch\n0 3.1 0.1\n1 -3.1 0.1\n").samples[0].headingDeg, 177.6, 0.1)
+      << "it wraps";
   EXPECT_EQ(parsed("t heading pitch\n0 10 0.1\n").samples[0].pitchDeg, 0.1);
   EXPECT_EQ(parsed("t heading_deg pitch_deg\n0 1 0.1\n").samples[0].headingDeg, 1);
   EXPECT_NEAR(parsed("t;heading_rad;pitch_deg\n0;1;2\n").samples[0].headingDeg, 57.2958, 1e-4);
   EXPECT_EQ(parsed("time_ms,yaw_deg,pitch_deg\n0,1,2\n1500,1,2\n").durationS(), 1.5);
-  EXPECT_TRUE(tells(parseHeadLog("t heading pitch\n0 3.1 0.1\n", "h").findings(), "read as radians"));
+  EXPECT_TRUE(
+      tells(parseHeadLog("t heading pitch\n0 3.1 0.1\n1 -3.1 0.1\n", "h").findings(), "read as radians"));
+  EXPECT_TRUE(tells(parseHeadLog("t heading pitch\n0 3.1 0.1\n", "h").findings(), "degrees or radians"));
 }
 
 TEST(HeadLog, unwindsWhatWrapsAndTurnsTheShortWay) {
@@ -94,7 +97,7 @@ TEST(HeadLog, namesWhatIsWrongWithItsPlace) {
   EXPECT_NE(findings("a,b,c\n1,2,3\n").find("h.csv:1: heading"), std::string::npos);
   const std::string bad = findings("t,heading,pitch\n0,0,0\n1,nan,0\n2,0\n3,x,inf\n");
   EXPECT_NE(bad.find("h.csv:3: heading: expected a finite number, found \"nan\""), std::string::npos) << bad;
-  EXPECT_NE(bad.find("h.csv:4: pitch: expected a finite number, found nothing"), std::string::npos) << bad;
+  EXPECT_NE(bad.find("h.csv:4: expected 3 cells, as the header, found 2"), std::string::npos) << bad;
   EXPECT_NE(bad.find("h.csv:5: pitch"), std::string::npos) << bad;
   EXPECT_FALSE(readHeadLog("absent.txt").ok());
 }
@@ -152,7 +155,7 @@ TEST(HeadLog, leavesBadRowsOutWhenAsked) {
 
 TEST(HeadLog, survivesAnyBytes) {
   std::mt19937_64 random(3);
-  std::string good = "timestamp viewpoint yaw pitch roll\n";
+  std::string good = "timestamp viewpoint yaw_rad pitch_rad roll_rad\n";
   for (int i = 0; i < 20; ++i) good += std::to_string(i * 0.017) + " 0 0.1 0.2 0.3\n";
   for (int i = 0; i < 3000; ++i) {
     std::string text = good;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/host/column_map.h"
 #include "trimtab/units/result.h"
 
 namespace trimtab {
@@ -24,12 +25,15 @@ struct Flight {
   double durationS() const { return states.empty() ? 0 : states.back().time - states.front().time; }
 };
 
-/// Reads a flight: a CSV with named columns (ours or FlightGear's hyphenated names), a decision trace, or a
-/// .pcap capture of a host, told apart by content. Without a time column, rows are `defaultStepS` seconds
-/// apart. Rows before the simulator was ready (below -1,000 ft) are dropped with a note; gaps and jumps are
-/// noted.
-Result<Flight> readFlight(const std::filesystem::path& file, double defaultStepS = 0.1);
-Result<Flight> parseFlightCsv(std::string_view text, const std::string& where, double defaultStepS = 0.1);
+/// Reads a flight: a table of text with named columns, a decision trace, or a .pcap capture of a host, told
+/// apart by content. resources/docs/logs.md has the names, units and formats that are read. `columns` says
+/// where quantities are, if the names do not. Without a time column, rows are `defaultStepS` seconds apart;
+/// without an attitude, the track gives one. Rows before the simulator was ready (below -1,000 ft) are
+/// dropped with a note; gaps and jumps are noted. If two readings of a file fit, it is refused.
+Result<Flight> readFlight(const std::filesystem::path& file, double defaultStepS = 0.1,
+                          const ColumnMap& columns = {});
+Result<Flight> parseFlightCsv(std::string_view text, const std::string& where, double defaultStepS = 0.1,
+                              const ColumnMap& columns = {});
 
 /// Returns a flight as CSV, with a column for everything that the states hold. `height_m` stands beside
 /// `altitude_ft` so that it reads back bit for bit: a fifth of all doubles in metres have no double in feet.

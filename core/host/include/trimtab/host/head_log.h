@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trimtab/host/column_map.h"
 #include "trimtab/units/geodesy.h"
 #include "trimtab/units/result.h"
 
@@ -43,16 +44,18 @@ enum class BadRows {
              ///< part
 };
 
-/// Reads a head log. Columns are found by name and separated by commas, semicolons or blanks: a time (time_s,
-/// timestamp, time_ms ..), heading (head_heading_deg, heading, yaw ..), pitch, and roll if there is one. A
-/// name gives its unit by _deg or _rad; without one, the whole log is radians if no angle leaves a turn, else
-/// degrees. If names carry no unit and the column named pitch winds beyond a quarter turn in more rows than
-/// the one named yaw, the two are exchanged: the headers of MV360's logs are wrong so. A row is bad if a cell
-/// is no finite number or if its pitch lies beyond a quarter turn. Rows out of order are sorted; of rows with
-/// one time the last counts. Findings report all of this, and gaps.
-Result<HeadLog> readHeadLog(const std::filesystem::path& file, BadRows badRows = BadRows::refuse);
+/// Reads a head log: a table of text with a time (time_s, timestamp, time_ms ..), a heading
+/// (head_heading_deg, heading, yaw ..), a pitch, and a roll if there is one. resources/docs/logs.md has the
+/// names, units and formats that are read; `columns` says where quantities are, if the names do not. Names
+/// give units; without them the values do, and a log is refused if two units fit. If names carry no unit and
+/// the column named pitch winds beyond a quarter turn in more rows than the one named yaw, the two are
+/// exchanged: the headers of MV360's logs are wrong so. A row is bad if it has not as many cells as the
+/// header, if a cell is no finite number, or if its pitch lies beyond a quarter turn. Rows out of order are
+/// sorted; of rows with one time the last counts. Findings report all of this, and gaps.
+Result<HeadLog> readHeadLog(const std::filesystem::path& file, BadRows badRows = BadRows::refuse,
+                            const ColumnMap& columns = {});
 Result<HeadLog> parseHeadLog(std::string_view text, const std::string& where,
-                             BadRows badRows = BadRows::refuse);
+                             BadRows badRows = BadRows::refuse, const ColumnMap& columns = {});
 
 /// Parses a scripted sweep. "sweep:DEG/S[/WAIT]" waits (2 s by default), turns the head through so many
 /// degrees, half to either side of straight ahead, in so many seconds, waits, turns back, and so on.
@@ -60,7 +63,8 @@ Result<HeadLog> parseHeadLog(std::string_view text, const std::string& where,
 Result<HeadLog> parseSweep(std::string_view text);
 bool isSweep(std::string_view text);
 /// Opens a sweep or, if the text is none, a log file.
-Result<HeadLog> openHead(const std::string& text, BadRows badRows = BadRows::refuse);
+Result<HeadLog> openHead(const std::string& text, BadRows badRows = BadRows::refuse,
+                         const ColumnMap& columns = {});
 
 /// Returns the head so many seconds into the log, interpolated between samples, heading in -180..180. A time
 /// that is not a number counts as the beginning.
