@@ -35,9 +35,6 @@ void DockLayout::addPage(const char* name, const QString& title, QWidget* conten
   if (pages == nullptr) {
     QWidget* const first = dock->widget->widget();
     pages = new QTabWidget;
-    // Pages scroll. Else the tallest page, seen or not, would squeeze the dock above.
-    constexpr int kLeastHeightPx = 150;
-    pages->setMinimumHeight(kLeastHeightPx);
     pages->setDocumentMode(true);
     pages->setAccessibleName(dock->widget->windowTitle());
     dock->widget->setWidget(pages);
