@@ -167,6 +167,41 @@ TEST_F(WorkbenchWorkspaces, aWorkspaceKeepsHowItWasLeftUntilItIsReset) {
   EXPECT_TRUE(comesToFront("budget"));
 }
 
+TEST_F(WorkbenchWorkspaces, docksKeepTheirShareOfAWindowThatBecomesSmallAndLargeAgain) {
+  const auto policyIs = [&](int widthPx) {
+    return waitFor([&] { return std::abs(w().dock("policy")->width() - widthPx) <= 4; }, 5000);
+  };
+  w().resize(1600, 960);
+  press(Qt::Key_2);
+  spaces().reset();
+  const int whole = 616;  // 0.385 of the window
+  EXPECT_TRUE(policyIs(whole)) << w().dock("policy")->width();
+  w().resize(1100, 640);
+  EXPECT_TRUE(policyIs(whole * 1100 / 1600)) << w().dock("policy")->width();
+  w().resize(1600, 960);
+  EXPECT_TRUE(policyIs(whole)) << w().dock("policy")->width();
+  // So does a workspace that was left in a window of another size.
+  w().resize(1280, 768);
+  EXPECT_TRUE(policyIs(whole * 1280 / 1600)) << w().dock("policy")->width();
+  press(Qt::Key_1);
+  w().resize(1600, 960);
+  press(Qt::Key_2);
+  EXPECT_TRUE(policyIs(whole)) << w().dock("policy")->width();
+  // What a person has dragged is kept as well.
+  const QPoint handle = w().dock("policy")->geometry().topLeft() + QPoint(-2, 100);
+  QTest::mousePress(&w(), Qt::LeftButton, {}, handle);
+  for (int x = 20; x <= 100; x += 20) {
+    QTest::mouseMove(&w(), handle + QPoint(x, 0));
+    QTest::qWait(20);
+  }
+  QTest::mouseRelease(&w(), Qt::LeftButton, {}, handle + QPoint(100, 0));
+  EXPECT_TRUE(policyIs(whole - 100)) << w().dock("policy")->width();
+  w().resize(1300, 800);
+  EXPECT_TRUE(policyIs((whole - 100) * 1300 / 1600)) << w().dock("policy")->width();
+  w().resize(1600, 960);
+  EXPECT_TRUE(policyIs(whole - 100)) << w().dock("policy")->width();
+}
+
 TEST_F(WorkbenchWorkspaces, aDockThatIsAskedForAppearsWhereItIsAtHome) {
   press(Qt::Key_1);
   ASSERT_TRUE(w().dock("messages")->isHidden());

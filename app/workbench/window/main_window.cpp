@@ -281,8 +281,8 @@ void MainWindow::openAny(const QString& path) {
 }
 
 void MainWindow::askImport() {
-  const QString file = QFileDialog::getOpenFileName(this, tr("Import"), {},
-                                                    tr("Policies (*.fll *.fis);;All files (*)"));
+  const QString file =
+      QFileDialog::getOpenFileName(this, tr("Import"), {}, tr("Policies (*.fll *.fis);;All files (*)"));
   if (!file.isEmpty()) openAny(file);
 }
 
@@ -308,11 +308,15 @@ void MainWindow::childEvent(QChildEvent* event) {
   if (auto* bar = event->polished() ? qobject_cast<QTabBar*>(event->child()) : nullptr) arrangeTabs(*bar);
 }
 
-void MainWindow::changeEvent(QEvent* event) {
-  QMainWindow::changeEvent(event);
+bool MainWindow::event(QEvent* event) {
+  const bool known = QMainWindow::event(event);
   if (event->type() == QEvent::WindowStateChange) showPause();
 }
 
+  if (event->type() == QEvent::Resize) docks_.keepShares();
+  // A person lets go of a handle between docks. Clicks that nobody takes arrive here too, not accepted.
+  if (event->type() == QEvent::MouseButtonRelease && event->isAccepted()) docks_.noteShares(size());
+  return known;
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (!controllers_.document->mayLoseEdits()) return event->ignore();
   controllers_.document->document().dropCopy();
@@ -340,6 +344,7 @@ void MainWindow::start(const Options& options) {
   show();
   viewport_->setFocus();
   if (!options.preset.isEmpty()) c.document->open(options.preset);
+  docks_.noteShares(size());
   if (options.terrain.isEmpty())
     c.terrain->openSample();
   else
