@@ -17,10 +17,10 @@
 #include "tests/app/ig_support.h"
 #include "trimtab/preset/preset.h"
 #include "views/controls/parameter_of.h"
+#include "views/editors/band_edit.h"
 #include "views/editors/band_scale.h"
 #include "views/editors/curve_plot.h"
 #include "views/editors/membership_editor.h"
-#include "views/model/bands_model.h"
 #include "views/panels/plots_panel.h"
 #include "views/plots/time_plot.h"
 #include "views/policy/policy_panel.h"
@@ -166,7 +166,7 @@ class Tour : public Bench {
     auto& scale = *dock.findChild<views::BandScale*>();
     hand_->drag(scale, scale.pixelOf(1.0).toPoint(), scale.pixelOf(1.2).toPoint(), "an edge");
     auto& table = *dock.findChild<QTableView*>();
-    const QModelIndex width = table.model()->index(2, views::BandsModel::kWidth);
+    const QModelIndex width = table.model()->index(2, views::kBandWidth);
     hand_->click(*table.viewport(), table.visualRect(width).center(), "a width");
     hand_->type("512");
     hand_->key(Qt::Key_Return);
