@@ -183,16 +183,6 @@ QString ParameterLine::problem() const {
   return problem_->text();
 }
 
-bool ParameterLine::matches(const QString& search) const {
-  for (const QString& word : search.split(QLatin1Char(' '), Qt::SkipEmptyParts)) {
-    bool found = false;
-    for (const std::string_view text : {row_.label, row_.key, row_.help, row_.source})
-      found = found || fromView(text).contains(word, Qt::CaseInsensitive);
-    if (!found) return false;
-  }
-  return true;
-}
-
 void ParameterLine::setVisible(bool visible) {
   visible_ = visible;
   label_->setVisible(visible);
