@@ -230,7 +230,6 @@ class Tour : public Bench {
     EXPECT_NEAR(panel.plot().span(), 10, 1e-6);
     hand_->press(panel, "Pause");
     EXPECT_TRUE(panel.isPaused());
-    hand_->press(panel, "Details");
   }
   void compareTwoPresets() {
     workbench::SplitView& split = w().controllers().errors->splitView();
@@ -276,8 +275,6 @@ class Tour : public Bench {
   }
   void switchOffARule() {
     workspace("Tune");
-    // The details of the plots have squeezed the docks above, and a person resets the workspace from its menu.
-    w().workspaces().reset();
     front("policy");
     views::PolicyPanel& panel = *w().panels().policy;
     hand_->pressInMenu(panel, "Start from", "low-level");

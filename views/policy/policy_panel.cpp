@@ -190,8 +190,6 @@ void PolicyPanel::makeTabs() {
     parts_.terms->typeNumbers();
   });
   connect(p.plot, &TermPlot::refused, this, [this] { parts_.tabs->setCurrentWidget(parts_.terms); });
-  connect(p.rules, &RulesPage::importAsked, this, &PolicyPanel::askAndImport);
-  connect(p.rules, &RulesPage::exportAsked, this, &PolicyPanel::askAndExport);
   connect(p.findings, &FindingsPage::ruleAsked, this, &PolicyPanel::showRule);
   connect(p.findings, &FindingsPage::termAsked, this, &PolicyPanel::showTerm);
   connect(p.findings, &FindingsPage::countChanged, this, [this](int count) {
@@ -229,6 +227,13 @@ void PolicyPanel::choose() {
   }
   // The curves of the scheme stand beside their tables and need the room of the values.
   const bool narrower = std::exchange(schemeShown_, !signal) != !signal;
+  // Of both, only the one that is shown asks for its width.
+  for (QWidget* page : {static_cast<QWidget*>(parts_.scheme), static_cast<QWidget*>(parts_.plot)}) {
+    QSizePolicy width = page->sizePolicy();
+    width.setHorizontalPolicy(page == right_->currentWidget() ? QSizePolicy::Expanding
+                                                              : QSizePolicy::Ignored);
+    page->setSizePolicy(width);
+  }
   if (narrower) {
     parts_.signalsList->showValues(signal.has_value());
     upper_->setSizes({signal ? parts_.signalsList->wholeWidth() : parts_.signalsList->minimumWidth(), 10000});
