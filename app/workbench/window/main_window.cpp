@@ -29,6 +29,7 @@
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/viewport/split_view.h"
 #include "app/workbench/window/palette_entries.h"
+#include "appearance.h"
 #include "job_bar.h"
 #include "menus.h"
 #include "notice_bar.h"
@@ -57,6 +58,7 @@ const QString kGeometryKey = QStringLiteral("window/geometry");
 }  // namespace
 
 MainWindow::MainWindow() {
+  applyChosen();
   setObjectName(QStringLiteral("trimtab"));
   setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
   setAcceptDrops(true);
@@ -311,12 +313,12 @@ void MainWindow::childEvent(QChildEvent* event) {
 bool MainWindow::event(QEvent* event) {
   const bool known = QMainWindow::event(event);
   if (event->type() == QEvent::WindowStateChange) showPause();
-}
-
   if (event->type() == QEvent::Resize) docks_.keepShares();
   // A person lets go of a handle between docks. Clicks that nobody takes arrive here too, not accepted.
   if (event->type() == QEvent::MouseButtonRelease && event->isAccepted()) docks_.noteShares(size());
   return known;
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (!controllers_.document->mayLoseEdits()) return event->ignore();
   controllers_.document->document().dropCopy();
@@ -342,9 +344,9 @@ void MainWindow::start(const Options& options) {
   }
   workspaces_->begin();
   show();
+  docks_.noteShares(size());
   viewport_->setFocus();
   if (!options.preset.isEmpty()) c.document->open(options.preset);
-  docks_.noteShares(size());
   if (options.terrain.isEmpty())
     c.terrain->openSample();
   else
