@@ -258,6 +258,9 @@ TEST_F(WorkbenchFind, theNextRunHasTheColoursThatWereChosen) {
   ASSERT_NO_FATAL_FAILURE(restart());
   EXPECT_TRUE(waitFor([&] { return views::isDark(w().palette()); }));
   EXPECT_TRUE(command("Dark")->isChecked());
+  for (const QLabel* label : w().findChildren<QLabel*>())
+    EXPECT_GT(label->palette().color(label->foregroundRole()).lightness(), 120)
+        << "dark text: " << label->accessibleName().toStdString() << label->text().toStdString();
   trigger("As the desktop");
 }
 

@@ -48,6 +48,9 @@ class Motion : public Bench {
     w().grab().save(QStringLiteral("%1/%2.png").arg(QLatin1String(folder), QLatin1String(name)));
     panel().grab().save(QStringLiteral("%1/%2-dock.png").arg(QLatin1String(folder), QLatin1String(name)));
   }
+
+  const ScratchDir dir_;
+  const QString file_ = QString::fromStdString((dir_ / "trace.csv").string());
 };
 
 TEST_F(Motion, aSweepUnderTheFreeCameraFillsStacksLowersAndRaises) {
@@ -103,9 +106,9 @@ TEST_F(Motion, aSweepIsRecordedAndFlownAgainWithItsLineOfSight) {
   panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
   panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
   emit panel().sourceBox().activated(MotionPanel::sweep);
-  budget.recordButton().click();
+  ASSERT_TRUE(w().controllers().trace->start(file_));
   ASSERT_TRUE(waitFor([this] { return session().decision().motion.lodScale == 4; }));
-  budget.recordButton().click();
+  w().controllers().trace->stop();
   panel().sourceBox().setCurrentIndex(MotionPanel::none);
   emit panel().sourceBox().activated(MotionPanel::none);
   ASSERT_FALSE(session().input().state.head);
@@ -139,9 +142,9 @@ TEST_F(Motion, theDockBudgetSaysWhatHeldTheFrameAndWhatEachLeverGave) {
       w().draft()
           .setText("measure.budget_ms", QString::number(std::max(0.6 * ms, 0.2), 'f', 1).toStdString())
           .empty());
-  budget.recordButton().click();
+  ASSERT_TRUE(w().controllers().trace->start(file_));
   ASSERT_TRUE(flies(100));
-  budget.recordButton().click();
+  w().controllers().trace->stop();
   budget.modeChoice().setCurrentText(QStringLiteral("with the budget held"));
   budget.replayButton().click();
   EXPECT_TRUE(w().draft().parameters().hold.enabled);

@@ -17,10 +17,10 @@
 #include "tests/app/ig_support.h"
 #include "trimtab/preset/preset.h"
 #include "views/controls/parameter_of.h"
+#include "views/editors/band_edit.h"
 #include "views/editors/band_scale.h"
 #include "views/editors/curve_plot.h"
 #include "views/editors/membership_editor.h"
-#include "views/model/bands_model.h"
 #include "views/panels/plots_panel.h"
 #include "views/plots/time_plot.h"
 #include "views/policy/policy_panel.h"
@@ -166,7 +166,7 @@ class Tour : public Bench {
     auto& scale = *dock.findChild<views::BandScale*>();
     hand_->drag(scale, scale.pixelOf(1.0).toPoint(), scale.pixelOf(1.2).toPoint(), "an edge");
     auto& table = *dock.findChild<QTableView*>();
-    const QModelIndex width = table.model()->index(2, views::BandsModel::kWidth);
+    const QModelIndex width = table.model()->index(2, views::kBandWidth);
     hand_->click(*table.viewport(), table.visualRect(width).center(), "a width");
     hand_->type("512");
     hand_->key(Qt::Key_Return);
@@ -221,17 +221,15 @@ class Tour : public Bench {
     views::PlotsPanel& panel = *w().panels().plots;
     hand_->press(panel, "Details");
     hand_->press(panel, "Signals");
-    QListWidget& list = panel.signalList();
-    const QList<QListWidgetItem*> band = list.findItems("band", Qt::MatchExactly);
-    ASSERT_EQ(band.size(), 1);
-    hand_->click(*list.viewport(), list.visualItemRect(band.front()).center(), "band");
+    auto& search = *panel.signalList().parentWidget()->findChild<QLineEdit*>();
+    hand_->click(search, search.rect().center(), "the search");
+    hand_->type("band");
     hand_->key(Qt::Key_Return);
     EXPECT_EQ(std::ranges::count(panel.plot().lanes().front().traces, views::Trace::band), 1);
     hand_->choose(panel, "Time shown", "10 s");
     EXPECT_NEAR(panel.plot().span(), 10, 1e-6);
     hand_->press(panel, "Pause");
     EXPECT_TRUE(panel.isPaused());
-    hand_->press(panel, "Details");
   }
   void compareTwoPresets() {
     workbench::SplitView& split = w().controllers().errors->splitView();
@@ -277,8 +275,6 @@ class Tour : public Bench {
   }
   void switchOffARule() {
     workspace("Tune");
-    // The details of the plots have squeezed the docks above, and a person resets the workspace from its menu.
-    w().workspaces().reset();
     front("policy");
     views::PolicyPanel& panel = *w().panels().policy;
     hand_->pressInMenu(panel, "Start from", "low-level");

@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QAbstractButton>
+#include <QAction>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QFile>
 #include <QHeaderView>
 #include <QLabel>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QStyleOptionComboBox>
 #include <QTabBar>
+#include <QTabWidget>
 #include <QTextDocument>
 #include <algorithm>
 
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/window/workspaces.h"
 #include "gui_support.h"
+#include "tests/views/policy/policy_flight.h"
 #include "views/panels/plots_panel.h"
 #include "views/plots/time_plot.h"
+#include "views/policy/policy_panel.h"
+#include "views/policy/signals_list.h"
 
 namespace trimtab::test {
 namespace {
@@ -165,6 +172,69 @@ TEST_F(WorkbenchWorkspaces, aWorkspaceKeepsHowItWasLeftUntilItIsReset) {
   EXPECT_TRUE(w().dock("budget")->isHidden());
   spaces().reset();
   EXPECT_TRUE(comesToFront("budget"));
+}
+
+TEST_F(WorkbenchWorkspaces, policyDoesNotScrollSidewaysBesideTheDetailsOfPlots) {
+  w().resize(1280, 720);
+  press(Qt::Key_2);
+  spaces().reset();
+  test::setLargePolicy(w().draft());
+  views::PolicyPanel& panel = *w().panels().policy;
+  panel.parts().signalsList->choose(Signal::speed);
+  workbench::raiseDock(*w().panels().plots);
+  for (QAction* action : w().panels().plots->actions())
+    if (action->text() == "Details") action->setChecked(true);
+  workbench::raiseDock(panel);
+  ASSERT_TRUE(comesToFront(panel) && comesToFront("plots"));
+  QTabWidget& pages = *panel.parts().tabs;
+  ASSERT_TRUE(waitFor([&] { return pages.isVisible(); }));
+  for (int page = 0; page < pages.count(); ++page) {
+    pages.setCurrentIndex(page);
+    QTest::qWait(50);
+    const auto* const area = qobject_cast<const QScrollArea*>(panel.parentWidget()->parentWidget());
+    ASSERT_NE(area, nullptr);
+    EXPECT_EQ(area->horizontalScrollBar()->maximum(), 0) << pages.tabText(page).toStdString();
+    EXPECT_GE(pages.currentWidget()->visibleRegion().boundingRect().height(),
+              6 * panel.fontMetrics().height())
+        << pages.tabText(page).toStdString();
+    const QString shots = qEnvironmentVariable("TRIMTAB_SHOTS");
+    if (!shots.isEmpty()) w().grab().save(QString("%1/policy-%2.png").arg(shots).arg(page));
+  }
+}
+
+TEST_F(WorkbenchWorkspaces, docksKeepTheirShareOfAWindowThatBecomesSmallAndLargeAgain) {
+  const auto policyIs = [&](int widthPx) {
+    return waitFor([&] { return std::abs(w().dock("policy")->width() - widthPx) <= 4; }, 5000);
+  };
+  w().resize(1600, 960);
+  press(Qt::Key_2);
+  spaces().reset();
+  const int whole = 616;  // 0.385 of the window
+  EXPECT_TRUE(policyIs(whole)) << w().dock("policy")->width();
+  w().resize(1100, 640);
+  EXPECT_TRUE(policyIs(whole * 1100 / 1600)) << w().dock("policy")->width();
+  w().resize(1600, 960);
+  EXPECT_TRUE(policyIs(whole)) << w().dock("policy")->width();
+  // So does a workspace that was left in a window of another size.
+  w().resize(1280, 768);
+  EXPECT_TRUE(policyIs(whole * 1280 / 1600)) << w().dock("policy")->width();
+  press(Qt::Key_1);
+  w().resize(1600, 960);
+  press(Qt::Key_2);
+  EXPECT_TRUE(policyIs(whole)) << w().dock("policy")->width();
+  // What a person has dragged is kept as well.
+  const QPoint handle = w().dock("policy")->geometry().topLeft() + QPoint(-2, 100);
+  QTest::mousePress(&w(), Qt::LeftButton, {}, handle);
+  for (int x = 20; x <= 100; x += 20) {
+    QTest::mouseMove(&w(), handle + QPoint(x, 0));
+    QTest::qWait(20);
+  }
+  QTest::mouseRelease(&w(), Qt::LeftButton, {}, handle + QPoint(100, 0));
+  EXPECT_TRUE(policyIs(whole - 100)) << w().dock("policy")->width();
+  w().resize(1300, 800);
+  EXPECT_TRUE(policyIs((whole - 100) * 1300 / 1600)) << w().dock("policy")->width();
+  w().resize(1600, 960);
+  EXPECT_TRUE(policyIs(whole - 100)) << w().dock("policy")->width();
 }
 
 TEST_F(WorkbenchWorkspaces, aDockThatIsAskedForAppearsWhereItIsAtHome) {

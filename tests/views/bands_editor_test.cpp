@@ -7,8 +7,8 @@
 
 #include "application.h"
 #include "views/controls/number_box.h"
+#include "views/editors/band_edit.h"
 #include "views/editors/band_scale.h"
-#include "views/model/bands_model.h"
 
 namespace trimtab::views {
 namespace {
@@ -98,16 +98,16 @@ TEST_F(BandsEditorTest, arrowKeysNudgeTheEdge) {
 }
 
 TEST_F(BandsEditorTest, typedSizesAndEdgesAreTakenOrRefused) {
-  EXPECT_TRUE(type(1, BandsModel::kWidth, "512 px"));
-  EXPECT_TRUE(type(1, BandsModel::kHeight, "384"));
-  EXPECT_TRUE(type(1, BandsModel::kFrom, "0.455"));
+  EXPECT_TRUE(type(1, kBandWidth, "512 px"));
+  EXPECT_TRUE(type(1, kBandHeight, "384"));
+  EXPECT_TRUE(type(1, kBandFrom, "0.455"));
   const Band band = bandsOf(draft_).band[1];
   EXPECT_EQ(band, (Band{0.455, 512, 384}));
   for (const char* text : {"", "0", "15", "8193", "512.5", "-1", "nan", "wide"})
-    EXPECT_FALSE(type(1, BandsModel::kWidth, text)) << text;
+    EXPECT_FALSE(type(1, kBandWidth, text)) << text;
   for (const char* text : {"", "0.1", "1", "2", "-1", "nan", "inf"})
-    EXPECT_FALSE(type(1, BandsModel::kFrom, text)) << text;
-  EXPECT_FALSE(type(1, BandsModel::kTo, "0.9"));
+    EXPECT_FALSE(type(1, kBandFrom, text)) << text;
+  EXPECT_FALSE(type(1, kBandTo, "0.9"));
   EXPECT_EQ(bandsOf(draft_).band[1], band);
 }
 
@@ -127,7 +127,7 @@ TEST_F(BandsEditorTest, theFilesEdgesStayBehindThoseThatAreDragged) {
 }
 
 TEST_F(BandsEditorTest, edgesAreTheDecimalsThatPeopleType) {
-  ASSERT_TRUE(type(1, BandsModel::kFrom, "0.56"));
+  ASSERT_TRUE(type(1, kBandFrom, "0.56"));
   scale().select(1);
   QTest::keyClick(&scale(), Qt::Key_Right);
   EXPECT_EQ(bandsOf(draft_).band[1].low, 0.57) << "57 * 0.01 is 0.5700000000000001";
@@ -136,7 +136,7 @@ TEST_F(BandsEditorTest, edgesAreTheDecimalsThatPeopleType) {
 TEST_F(BandsEditorTest, aRowIsSelectedAgainAfterTheScaleSelectedNone) {
   QTableView& table = editor_.table();
   const auto click = [&] {
-    const QRect cell = table.visualRect(table.model()->index(1, BandsModel::kFrom));
+    const QRect cell = table.visualRect(table.model()->index(1, kBandFrom));
     QTest::mouseClick(table.viewport(), Qt::LeftButton, {}, cell.center());
   };
   click();

@@ -139,13 +139,13 @@ TEST_F(BudgetPanelTest, stacksPredictedAndMeasuredStagesOnOneScaleAndShowsHowFar
 }
 
 TEST_F(BudgetPanelTest, fliesARunAgainUnderAnotherModeAsOneUndoStep) {
-  panel.recordButton().click();
+  panel.setRecording(true);
   for (int i = 0; i < 3; ++i) {
     LiveFrame frame = frameAt(i, HoldReason::off, 1);
     frame.input.state.time = 100 + i;
     panel.showFrame(frame);
   }
-  panel.recordButton().click();
+  panel.setRecording(false);
   panel.show();
   settle();
   EXPECT_FALSE(draft.parameters().hold.enabled);
@@ -221,9 +221,9 @@ TEST_F(BudgetPanelTest, recordsARunAndComparesItWithTheSameFlownAgain) {
   panel.show();
   settle();
   EXPECT_FALSE(panel.replayButton().isEnabled());
-  panel.recordButton().click();
+  panel.setRecording(true);
   fly(1, 30, 101);
-  panel.recordButton().click();
+  panel.setRecording(false);
   fly(5, 99, 10);
   settle();
   EXPECT_EQ(panel.comparisonText(), "Recorded: 2 s, median 30 ms, p99 30 ms");
@@ -257,9 +257,9 @@ TEST_F(BudgetPanelTest, comparesTwoRunsSecondBySecondAndCallsNoiseNoDifference) 
   };
   panel.show();
   const auto compared = [&](double ms, double everyOther) {
-    panel.recordButton().click();
+    panel.setRecording(true);
     fly(30, 1, 95);
-    panel.recordButton().click();
+    panel.setRecording(false);
     settle();
     EXPECT_TRUE(panel.comparisonText().endsWith("p99 – ms")) << "95 images have no 99th percentile";
     panel.replayButton().click();
@@ -282,13 +282,13 @@ TEST_F(BudgetPanelTest, fliesAgainUnderEachModeOfTheExperimentAndUndoTakesItBack
                              {MotionControl::off, RatioMode::adaptive, true, false},
                              {MotionControl::off, RatioMode::adaptive, true, true}};
   panel.show();
-  panel.recordButton().click();
+  panel.setRecording(true);
   for (int i = 0; i < 5; ++i) {
     LiveFrame frame = frameAt(i, HoldReason::off, 1);
     frame.input.state.time = i;
     panel.showFrame(frame);
   }
-  panel.recordButton().click();
+  panel.setRecording(false);
   settle();
   QComboBox& choice = panel.modeChoice();
   ASSERT_EQ(choice.count(), 5);

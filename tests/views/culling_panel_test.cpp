@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "trimtab/frame/overlay_colours.h"
+#include "views/controls/bar_list.h"
 #include "views/insets/depth_map_inset.h"
 #include "views/insets/horizon_inset.h"
 #include "views/plots/time_plot.h"
@@ -65,6 +67,28 @@ TEST_F(CullingPanelTest, saysWhatServesAndWhyNotWhatWasAskedFor) {
   frame.decision.occlusionResolution.reset();
   EXPECT_TRUE(says(frame, QStringLiteral("plain view-frustum culling")));
   EXPECT_EQ(ofHorizon(), QStringLiteral("No horizon: nothing asks for one in this frame."));
+}
+
+TEST_F(CullingPanelTest, aReasonHasTheColourThatTheImageGivesIt) {
+  const auto result = std::make_shared<FrameResult>();
+  result->tilesInCut = 40;
+  result->visible.tiles.resize(10);
+  result->visible.outsideFrustum = result->visible.occluded = 10;
+  result->visible.beyondVisibility = result->visible.backFacing = 5;
+  LiveFrame frame;
+  frame.result = result;
+  panel_.showFrame(frame);
+  const auto shows = [&](CullReason reason) {
+    const auto [red, green, blue] = reasonColour(reason);
+    const QImage image = panel_.findChild<BarList*>()->grab().toImage();
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        if (image.pixelColor(x, y) == QColor(red, green, blue)) return true;
+    return false;
+  };
+  for (const CullReason reason : {CullReason::drawn, CullReason::outside_frustum, CullReason::occluded,
+                                  CullReason::beyond_visibility, CullReason::back_facing})
+    EXPECT_TRUE(QTest::qWaitFor([&] { return shows(reason); })) << int(reason);
 }
 
 TEST_F(CullingPanelTest, theDepthMapIsShownOrWhyThereIsNone) {

@@ -3,6 +3,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QToolButton>
@@ -48,6 +49,17 @@ class ParameterTableTest : public testing::Test {
   Draft draft_;
   ParameterTable table_{draft_};
 };
+
+TEST_F(ParameterTableTest, aNameHasOneLineWhereThereIsRoom) {
+  table_.tier().setCurrentIndex(1);
+  test::expose(table_, {1100, 760});
+  for (const ParameterRow& row : parameterRows())
+    for (const QLabel* label : table_.findChildren<QLabel*>())
+      if (label->buddy() == table_.line(row.key)->editor()) {
+        EXPECT_LT(label->heightForWidth(label->width()), 2 * label->fontMetrics().lineSpacing())
+            << row.key << ": " << label->width() << " px";
+      }
+}
 
 TEST_F(ParameterTableTest, hasALineForEveryRow) {
   for (const ParameterRow& row : parameterRows()) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QDropEvent>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QMimeData>
 #include <QPushButton>
@@ -90,6 +91,29 @@ TEST_F(PlotsContent, keysGoFromSpikeToSpike) {
   EXPECT_EQ(panel_.framePage().frame(), spikes.back()) << "after the last one there is none";
   QTest::keyClick(&plot(), Qt::Key_W, Qt::ShiftModifier);
   EXPECT_EQ(panel_.framePage().frame(), spikes[1]);
+}
+
+TEST_F(PlotsContent, aSignalIsFoundByItsWordsAndEnterAddsTheFirst) {
+  QListWidget& list = panel_.signalList();
+  auto* const search = list.parentWidget()->findChild<QLineEdit*>();
+  ASSERT_NE(search, nullptr);
+  const auto found = [&] {
+    QStringList texts;
+    for (int row = 0; row < list.count(); ++row)
+      if (!list.item(row)->isHidden()) texts << list.item(row)->text();
+    return texts.join(", ").toStdString();
+  };
+  search->setText("sight line");
+  EXPECT_EQ(found(), "line of sight (deg/s), line of sight, filtered (deg/s)");
+  search->setText("lod_scale");
+  EXPECT_EQ(found(), "LOD scale") << "the name that files have finds it too";
+  QTest::keyClick(search, Qt::Key_Return);
+  EXPECT_EQ(plot().lanes()[plot().currentLane()].traces.back(), Trace::lod_scale);
+  search->setText("no such signal");
+  EXPECT_EQ(found(), "");
+  EXPECT_EQ(list.currentItem(), nullptr);
+  search->clear();
+  EXPECT_GT(QString::fromStdString(found()).count(','), 40);
 }
 
 TEST_F(PlotsContent, anySignalGoesIntoAnyPlotAndStatisticsFollow) {

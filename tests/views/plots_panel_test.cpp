@@ -165,6 +165,34 @@ TEST_F(PlotsPanelTest, drawsNoLineAcrossAStretchWithoutFrames) {
       1);
 }
 
+TEST_F(PlotsPanelTest, anAbsentValueIsOneGapAtEveryZoomAndAShortAbsenceIsNone) {
+  const auto addFramesOfGpu = [&](int frames, double ms) {
+    for (int i = 0; i < frames; ++i) {
+      LiveFrame frame = flight_.next(draft_.active());
+      frame.cost.gpu = ms;
+      panel_.showFrame(frame);
+    }
+  };
+  const auto gpu =
+      std::ranges::find(plot().traces(), Trace::gpu_ms, [](const TraceGraph* t) { return t->look().trace; });
+  ASSERT_NE(gpu, plot().traces().end());
+  const auto gaps = [&](double spanS) {
+    plot().setSpan(spanS);
+    const auto data = (*gpu)->data();
+    return std::count_if(data->begin(), data->end(),
+                         [](const QCPGraphData& d) { return std::isnan(d.value); });
+  };
+  addFramesOfGpu(60 * 100, 3);
+  for (const int absent : {1, 7, 30}) {
+    addFramesOfGpu(absent, std::nan(""));
+    addFramesOfGpu(60, 3);
+  }
+  for (const double spanS : {6, 10, 60}) EXPECT_EQ(gaps(spanS), 0) << spanS;
+  addFramesOfGpu(60 * 3, std::nan(""));
+  addFramesOfGpu(60, 3);
+  for (const double spanS : {6, 10, 60}) EXPECT_EQ(gaps(spanS), 1) << spanS;
+}
+
 TEST_F(PlotsPanelTest, aWideAndLowDockHasItsLanesTwoByTwo) {
   EXPECT_EQ(plot().plotLayout()->columnCount(), 1);
   panel_.resize(900, 280);

@@ -241,6 +241,17 @@ TEST(TraceBuffer, recordsTheLeversAsDrawnWhatTheArbiterPredictedAndWhatWasMeasur
   EXPECT_TRUE(std::isnan(buffer.value(Trace::predicted_ms, 2))) << "no budget";
 }
 
+TEST(TraceBuffer, aBankToTheLeftIsARollBelowZero) {
+  TraceBuffer buffer;
+  LiveFrame frame = frameAt(0, 10);
+  frame.input.signalValues[Signal::roll] = 30;  // rules ask how far it banks, not where to
+  for (const double roll : {-30.0, 330.0}) {
+    frame.input.state.attitude.roll = Degrees{roll};
+    buffer.append(frame);
+    EXPECT_FLOAT_EQ(buffer.value(Trace::roll_deg, buffer.end() - 1), -30) << roll;
+  }
+}
+
 TEST(TraceBuffer, stacksTheStagesUpToTheWholeFrame) {
   TraceBuffer buffer;
   LiveFrame frame;

@@ -50,7 +50,9 @@ void BarList::paintEvent(QPaintEvent*) {
   const int names = nameWidth(), texts = textWidth(), line = lineHeight();
   int y = 0;
   for (const Bar& bar : bars_) {
-    const QColor colour = bar.quiet ? blend(base, ink, 0.35) : seriesColour(bar.colour, palette());
+    const QColor colour = bar.quiet             ? blend(base, ink, 0.35)
+                          : bar.given.isValid() ? bar.given
+                                                : seriesColour(bar.colour, palette());
     const QRectF track(names, y + 3, std::max(10, width() - names - texts), line - 6);
     painter.setPen(bar.quiet ? quietColour(palette()) : ink);
     painter.drawText(QRectF(0, y, names, line), Qt::AlignLeft | Qt::AlignVCenter, bar.name);

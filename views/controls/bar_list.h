@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QColor>
 #include <QString>
 #include <QWidget>
 #include <vector>
@@ -15,10 +16,11 @@ class BarList : public QWidget {
     QString name;
     double value = 0;
     double top = 1;
-    QString text;               ///< beside the bar
-    std::vector<double> ticks;  ///< marks, such as band edges
-    int colour = 0;             ///< index for seriesColour
-    bool quiet = false;         ///< drawn grey: computed, but not in use
+    QString text;                    ///< beside the bar
+    std::vector<double> ticks = {};  ///< marks, such as band edges
+    int colour = 0;                  ///< index for seriesColour
+    bool quiet = false;              ///< drawn grey: computed, but not in use
+    QColor given = {};               ///< a colour that means the same elsewhere; if valid, it is used instead
     friend bool operator==(const Bar&, const Bar&) = default;
   };
 

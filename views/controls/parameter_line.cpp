@@ -26,13 +26,32 @@ namespace {
 constexpr int kWidestValue = 14;
 constexpr std::array kColumns{Reference::file, Reference::base, Reference::defaults};
 
+/// The name of a parameter, which wraps only where it has less width than its line. A QLabel that may wrap
+/// asks for a few words' width.
+class NameLabel : public QLabel {
+ public:
+  explicit NameLabel(const QString& name) : name_(name) {
+    setWordWrap(true);
+    setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("membership offset")));
+  }
+  QSize sizeHint() const override {
+    QFont bold = font();
+    bold.setBold(true);
+    const int width = QFontMetrics(bold).horizontalAdvance(QStringLiteral("● ") + name_) + 2;
+    return {width, heightForWidth(width)};
+  }
+
+ private:
+  QString name_;
+};
+
 }  // namespace
 
 ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout& grid, int gridRow)
     : QObject(grid.parentWidget()),
       draft_(draft),
       row_(row),
-      label_(new QLabel),
+      label_(new NameLabel(fromView(row.label))),
       editor_(makeEditor()),
       field_(editor_),
       reset_(new QToolButton) {
@@ -58,8 +77,6 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
   }
   const QString help = helpText(row);
   label_->setBuddy(editor_);
-  label_->setWordWrap(true);
-  label_->setMinimumWidth(label_->fontMetrics().horizontalAdvance(QStringLiteral("membership offset")));
   for (QWidget* widget : {static_cast<QWidget*>(label_), field_}) widget->setToolTip(help);
   for (QWidget* widget : {static_cast<QWidget*>(label_), field_, editor_, static_cast<QWidget*>(reset_)})
     markParameter(*widget, row.key);
@@ -183,16 +200,6 @@ QString ParameterLine::problem() const {
   return problem_->text();
 }
 
-bool ParameterLine::matches(const QString& search) const {
-  for (const QString& word : search.split(QLatin1Char(' '), Qt::SkipEmptyParts)) {
-    bool found = false;
-    for (const std::string_view text : {row_.label, row_.key, row_.help, row_.source})
-      found = found || fromView(text).contains(word, Qt::CaseInsensitive);
-    if (!found) return false;
-  }
-  return true;
-}
-
 void ParameterLine::setVisible(bool visible) {
   visible_ = visible;
   label_->setVisible(visible);
@@ -257,7 +264,8 @@ void ParameterLine::refresh() {
     now.problem = said.join(QLatin1Char(' '));
     if (findings.front().severity != Severity::error) now.colour = warningColour(label_->palette());
   }
-  if (row_.kind != Kind::scalar && row_.kind != Kind::flag && row_.kind != Kind::choice) showLists(now.differs);
+  if (row_.kind != Kind::scalar && row_.kind != Kind::flag && row_.kind != Kind::choice)
+    showLists(now.differs);
   // Every edit asks every line: nothing is laid out again that stayed as it was.
   if (now == shown_) return;
   shown_ = now;

@@ -36,7 +36,6 @@ class ParameterLine : public QObject {
   /// Chooses what the changed mark compares with and the reset button goes back to; at first the file.
   void compareWith(Reference reference);
   QString problem() const;
-  bool matches(const QString& search) const;
   void setVisible(bool visible);
   /// In a compact line, for a narrow dock, only tool tips and the context menu show these values.
   void setCompact(bool compact);

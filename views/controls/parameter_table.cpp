@@ -6,7 +6,6 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPushButton>
 #include <QToolButton>
 #include <algorithm>
@@ -33,7 +32,7 @@ QString groupOf(std::string_view key) {
 ParameterTable::ParameterTable(Draft& draft, QWidget* parent)
     : QWidget(parent),
       draft_(draft),
-      search_(new QLineEdit),
+      search_(new SearchField(tr("Search parameters"))),
       tier_(new QComboBox),
       comparedWith_(new QComboBox),
       changedOnly_(new QCheckBox(tr("Changed"))),
@@ -77,9 +76,6 @@ ParameterTable::ParameterTable(Draft& draft, QWidget* parent)
 }
 
 void ParameterTable::makeBar() {
-  search_->setPlaceholderText(tr("Search parameters"));
-  search_->setAccessibleName(tr("Search parameters"));
-  search_->setClearButtonEnabled(true);
   tier_->addItems({tr("Basic"), tr("All")});
   tier_->setAccessibleName(tr("Which parameters are shown"));
   tier_->setToolTip(tr("Basic parameters, or the advanced ones too. A search looks through all."));
@@ -212,19 +208,21 @@ void ParameterTable::fitColumns() {
 }
 
 void ParameterTable::filter() {
-  const QString search = search_->text().trimmed();
   const auto isChanged = [this](const ParameterRow& row) { return draft_.isChanged(row.key, reference()); };
+  const auto isFound = [this](const ParameterRow& row) {
+    return search_->finds({fromView(row.label), fromView(row.key), fromView(row.help), fromView(row.source)});
+  };
   bool any = false;
   for (const Group& group : groups_) {
     bool inGroup = false;
     for (ParameterLine* line : group.lines) {
       // What is broken or changed is never hidden by its tier.
-      const bool tier = tier_->currentIndex() == 1 || line->row().tier == Tier::basic || !search.isEmpty() ||
+      const bool tier = tier_->currentIndex() == 1 || line->row().tier == Tier::basic || search_->isUsed() ||
                         isChanged(line->row()) || !line->problem().isEmpty();
-      const bool wanted = tier && (search.isEmpty() || line->matches(search)) &&
-                          (!changedOnly_->isChecked() || isChanged(line->row()));
+      const bool wanted =
+          tier && isFound(line->row()) && (!changedOnly_->isChecked() || isChanged(line->row()));
       inGroup = inGroup || wanted;
-      line->setVisible(wanted && (group.header->isChecked() || !search.isEmpty()));
+      line->setVisible(wanted && (group.header->isChecked() || search_->isUsed()));
     }
     group.header->setVisible(inGroup);
     any = any || inGroup;

@@ -5,13 +5,13 @@
 #include <array>
 #include <vector>
 
+#include "search_field.h"
 #include "views/model/draft.h"
 
 class QComboBox;
 class QCheckBox;
 class QGridLayout;
 class QLabel;
-class QLineEdit;
 class QPushButton;
 class QToolButton;
 
@@ -59,7 +59,7 @@ class ParameterTable : public QWidget {
   void summarise();
 
   Draft& draft_;
-  QLineEdit* search_;
+  SearchField* search_;
   QComboBox *tier_, *comparedWith_;
   QCheckBox* changedOnly_;
   QPushButton* resetAll_;

@@ -5,14 +5,13 @@
 #include <vector>
 
 #include "trimtab/preset/table.h"
+#include "views/model/list_model.h"
 
 namespace trimtab::views {
 
 /// The smallest distance between band edges, and from the scale's ends: the last digit that editors show.
 inline constexpr double kEdgeGap = 0.01;
 
-/// Returns where the lower edge of a band may lie: between its neighbours' edges, within the scale.
-Range freeEdgeRange(const BandList& bands, std::size_t index);
 /// Returns the bands with the lower edges of several, in rising order, moved together by `by`, or by as much
 /// as all of them may go.
 BandList withEdgesMoved(const BandList& bands, const std::vector<std::size_t>& indexes, double by);
@@ -27,5 +26,10 @@ std::optional<InsertedBand> withBand(const BandList& bands, double low);
 std::optional<BandList> withoutBands(const BandList& bands, const std::vector<std::size_t>& indexes);
 /// Returns the upper edge of a band; the scale's top for the last.
 double highOf(const BandList& bands, std::size_t index);
+
+/// Returns the table of the bands: lower edge, upper edge (that of the next band, read only) and size. An
+/// edge is refused beyond its neighbours, a size that is not whole or not in the hard range.
+ListTable bandsTable();
+enum BandColumn { kBandFrom, kBandTo, kBandWidth, kBandHeight };
 
 }  // namespace trimtab::views

@@ -6,13 +6,14 @@
 #include <QTableView>
 #include <QToolButton>
 
+#include "band_edit.h"
 #include "band_scale.h"
 #include "views/controls/choice_box.h"
 #include "views/controls/list_table.h"
 #include "views/controls/note_line.h"
 #include "views/controls/number_box.h"
-#include "views/model/bands_model.h"
 #include "views/model/keys.h"
+#include "views/model/list_model.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -21,7 +22,7 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
     : QWidget(parent),
       draft_(draft),
       scale_(new BandScale(draft)),
-      model_(new BandsModel(draft, this)),
+      model_(new ListModel(draft, bandsTable(), this)),
       table_(new QTableView),
       note_(new NoteLine) {
   QHBoxLayout* top = new QHBoxLayout;
@@ -56,7 +57,7 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
   layout->addWidget(buttons);
   layout->addWidget(note_);
 
-  throttle_ = new Throttle(this, [this] { model_->setLiveBand(decision_.band); });
+  throttle_ = new Throttle(this, [this] { model_->setLiveRow(decision_.band); });
 
   connect(scale_, &BandScale::selectedChanged, this, [this](int index) {
     // Without a current row, a click on the row that was selected last selects it again.
@@ -73,12 +74,12 @@ BandsEditor::BandsEditor(Draft& draft, QWidget* parent)
           });
   connect(scale_, &BandScale::typingAsked, this, [this] {
     table_->setFocus();
-    table_->edit(model_->index(scale_->selected(), BandsModel::kFrom));
+    table_->edit(model_->index(scale_->selected(), kBandFrom));
   });
   connect(scale_, &BandScale::refused, this, &BandsEditor::say);
-  connect(model_, &BandsModel::refused, this, &BandsEditor::say);
+  connect(model_, &ListModel::refused, this, &BandsEditor::say);
   connect(hysteresis, &NumberBox::refused, this, &BandsEditor::say);
-  connect(model_, &BandsModel::accepted, this, [this] { say({}); });
+  connect(model_, &ListModel::accepted, this, [this] { say({}); });
   connect(&draft, &Draft::findingsChanged, this, [this] { say({}); });
   showNote();
 }

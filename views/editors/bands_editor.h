@@ -12,7 +12,7 @@ class QToolButton;
 namespace trimtab::views {
 
 class BandScale;
-class BandsModel;
+class ListModel;
 class NoteLine;
 class Throttle;
 
@@ -31,7 +31,7 @@ class BandsEditor : public QWidget {
 
   Draft& draft_;
   BandScale* scale_;
-  BandsModel* model_;
+  ListModel* model_;
   QTableView* table_;
   NoteLine* note_;
   QToolButton* remove_;

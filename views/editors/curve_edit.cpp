@@ -9,6 +9,7 @@
 #include "trimtab/fuzzy/membership.h"
 #include "views/model/keys.h"
 #include "views/model/rounded.h"
+#include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {
@@ -17,6 +18,31 @@ PointRow rowOfPoints(const CurvePoints& curve, const CurveSpec& spec) {
   PointRow row{{}, findRow(spec.key)->hard, [gap = pointGap(spec)](std::size_t) { return gap; }};
   for (const CurvePoint& point : curve.span()) row.x.push_back(point.x);
   return row;
+}
+
+const CurvePoint& pointOf(const ParameterValue& list, std::size_t row) {
+  return std::get<CurvePoints>(list).point[row];
+}
+
+QString putX(const CurveSpec& spec, ParameterValue& list, std::size_t row, double typed) {
+  auto& curve = std::get<CurvePoints>(list);
+  Range free = findRow(spec.key)->hard;
+  if (row > 0) free.low = curve.point[row - 1].x;
+  if (row + 1 < curve.size) free.high = curve.point[row + 1].x;
+  if (typed < free.low || typed > free.high)
+    return QObject::tr("%1 %2 is not between the neighbours: %3 to %4 %2.")
+        .arg(numberText(typed, 3), spec.unit, numberText(free.low, 3), numberText(free.high, 3));
+  curve.point[row].x = typed;
+  if (std::ranges::count(curve.span(), typed, &CurvePoint::x) > 2)
+    return QObject::tr("Two points at %1 %2 are a step; a third there means nothing.")
+        .arg(numberText(typed, 3), spec.unit);
+  return {};
+}
+
+QString putMembership(ParameterValue& list, std::size_t row, double typed) {
+  if (typed < 0 || typed > 1) return QObject::tr("A membership is 0 to 1, not %1.").arg(numberText(typed, 6));
+  std::get<CurvePoints>(list).point[row].y = typed;
+  return {};
 }
 
 }  // namespace
@@ -51,11 +77,20 @@ double pointGap(const CurveSpec& spec) {
   return std::pow(10.0, -spec.decimals);
 }
 
-Range typedRange(const CurvePoints& curve, std::size_t index, const CurveSpec& spec) {
-  Range typed = findRow(spec.key)->hard;
-  if (index > 0) typed.low = curve.point[index - 1].x;
-  if (index + 1 < curve.size) typed.high = curve.point[index + 1].x;
-  return typed;
+ListTable pointsTable(const CurveSpec& spec) {
+  return {.key = spec.key,
+          .columns = {{QObject::tr("%1 (%2)").arg(spec.quantity, spec.unit), spec.unit, spec.decimals + 3,
+                       [](const ParameterValue& list, std::size_t row) { return pointOf(list, row).x; },
+                       [spec](ParameterValue& list, std::size_t row, double typed) {
+                         return putX(spec, list, row, typed);
+                       }},
+                      {QObject::tr("Membership"),
+                       {},
+                       6,
+                       [](const ParameterValue& list, std::size_t row) { return pointOf(list, row).y; },
+                       putMembership}},
+          .readingKey = spec.readingKey,
+          .isUsed = spec.usesPoints};
 }
 
 CurvePoints withMoved(const CurvePoints& curve, const std::vector<std::size_t>& indexes, CurvePoint by,

@@ -9,6 +9,7 @@
 
 #include "trimtab/frame/frame.h"
 #include "trimtab/preset/table.h"
+#include "views/model/list_model.h"
 
 namespace trimtab::views {
 
@@ -38,9 +39,9 @@ CurveSpec pitchSpec();
 /// last decimal shown.
 double pointGap(const CurveSpec& spec);
 
-/// Returns the x that may be typed for a point: from one neighbour to the other, both included, because two
-/// points at one x are a step. A third one there is refused by validation.
-Range typedRange(const CurvePoints& curve, std::size_t index, const CurveSpec& spec);
+/// Returns the table of the points: x and membership. An x may be typed from one neighbour to the other, both
+/// included, because two points at one x are a step; a third one there is refused.
+ListTable pointsTable(const CurveSpec& spec);
 /// Returns the curve with several points, in rising order, moved by the same amount: by `by`, or as far as
 /// every one of them may go. Points keep a gap (pointGap) from their neighbours and stay inside the hard
 /// range of the parameter.

@@ -11,8 +11,8 @@
 #include "views/controls/choice_box.h"
 #include "views/controls/list_table.h"
 #include "views/controls/note_line.h"
-#include "views/model/curve_points_model.h"
 #include "views/model/keys.h"
+#include "views/model/list_model.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -27,7 +27,7 @@ CurveEditor::CurveEditor(Draft& draft, const CurveSpec& spec, const QList<QWidge
   for (QWidget* widget : extra) top->addWidget(widget);
   top->addStretch(0);
 
-  CurvePointsModel* model = new CurvePointsModel(draft, spec, this);
+  ListModel* model = new ListModel(draft, pointsTable(spec), this);
   setUpListTable(*table_, model, tr("%1 breakpoints").arg(spec.quantity), tr("Membership "));
 
   ListButtons* buttons = new ListButtons;
@@ -75,8 +75,8 @@ CurveEditor::CurveEditor(Draft& draft, const CurveSpec& spec, const QList<QWidge
     table_->edit(table_->model()->index(plot_->selected(), 0));
   });
   connect(plot_, &CurvePlot::refused, this, &CurveEditor::say);
-  connect(model, &CurvePointsModel::refused, this, &CurveEditor::say);
-  connect(model, &CurvePointsModel::accepted, this, [this] { say({}); });
+  connect(model, &ListModel::refused, this, &CurveEditor::say);
+  connect(model, &ListModel::accepted, this, [this] { say({}); });
   connect(&draft, &Draft::findingsChanged, this, [this] { say({}); });
   showNote();
 }

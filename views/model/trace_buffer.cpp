@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "trimtab/measure/statistics.h"
+#include "trimtab/units/geodesy.h"
 #include "trimtab/units/not_finite.h"
 
 namespace trimtab::views {
@@ -191,7 +192,7 @@ void TraceBuffer::append(const LiveFrame& frame) {
                                  grownBy(drawn.paging.bytesRead, bytesRead_) * 1e-6,
                                  static_cast<double>(drawn.paging.waiting),
                                  signal[Signal::above_ground],
-                                 signal[Signal::roll],
+                                 wrapped180(frame.input.state.attitude.roll).value(),
                                  signal[Signal::speed],
                                  signal[Signal::climb],
                                  signal[Signal::sight_rate],

@@ -101,7 +101,6 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
       comparison_(new QLabel),
       busy_(new QLabel),
       plot_(new BudgetPlot),
-      record_(new QPushButton(tr("&Record"))),
       replay_(new QPushButton(tr("Fl&y again"))),
       levers_(new QTableWidget(int(kFrameLeverRows.size()), kLeverColumns)),
       reasons_(new ReasonList),
@@ -167,13 +166,10 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
 }
 
 QLayout* BudgetPanel::makeRecorder() {
-  record_->setCheckable(true);
-  record_->setToolTip(tr("Records what is flown, with line of sight and weather, for at most %1 s")
-                          .arg(RecordedRun::kLongestS));
   replay_->setToolTip(
-      tr("Flies what was recorded again, with the preset as it is now, and lays the recorded times over the "
-         "new"));
-  connect(record_, &QPushButton::toggled, this, &BudgetPanel::setRecording);
+      tr("Flies what was recorded last (File > Record trace) again, with line of sight and weather and with "
+         "the preset as it is now, at most its first %1 s, and lays the recorded times over the new")
+          .arg(RecordedRun::kLongestS));
   connect(replay_, &QPushButton::clicked, this, &BudgetPanel::askReplay);
   mode_->setAccessibleName(tr("Fly again"));
   mode_->setToolTip(tr("What is switched on or off before the run is flown again; Undo takes it back"));
@@ -181,7 +177,6 @@ QLayout* BudgetPanel::makeRecorder() {
   mode_->setMinimumContentsLength(16);
   for (const ReplayMode& mode : kReplayModes) mode_->addItem(tr(mode.name));
   auto* row = new QHBoxLayout;
-  row->addWidget(record_);
   row->addWidget(replay_);
   row->addWidget(mode_, 1);
   auto* column = new QVBoxLayout;
@@ -205,12 +200,13 @@ void BudgetPanel::switchTo(int mode) {
 }
 
 void BudgetPanel::setRecording(bool on) {
+  recording_ = on;
   if (on) recorded_ = {}, replayed_ = {}, stage_ = Replay::none, watch_ = {};
   refresh();
 }
 
 void BudgetPanel::askReplay() {
-  record_->setChecked(false);
+  setRecording(false);
   replayed_ = {};
   stage_ = Replay::asked;
   switchTo(mode_->currentIndex());
@@ -218,8 +214,8 @@ void BudgetPanel::askReplay() {
 }
 
 void BudgetPanel::addToRun(const LiveFrame& frame) {
-  if (record_->isChecked()) {
-    if (!recorded_.add(frame)) record_->setChecked(false);
+  if (recording_) {
+    if (!recorded_.add(frame)) setRecording(false);
     return;
   }
   if (stage_ == Replay::none) return;
@@ -289,8 +285,8 @@ void BudgetPanel::compare() {
   if (images == comparedImages_ && !comparison_->text().isEmpty()) return;
   comparedImages_ = images;
   replay_->setEnabled(recorded_.images() > 1);
-  QString text =
-      recorded_.images() == 0 ? tr("Nothing is recorded") : tr("Recorded: %1").arg(inWords(recorded_));
+  QString text = recorded_.images() == 0 ? tr("Nothing is recorded yet: File > Record trace")
+                                         : tr("Recorded: %1").arg(inWords(recorded_));
   if (replayed_.images() > 0)
     text += QLatin1Char('\n') +
             tr("Flown again: %1; %2").arg(inWords(replayed_), comparedText(recorded_, replayed_));

@@ -21,7 +21,8 @@ namespace trimtab::views {
 class BudgetPlot;
 
 /// The Budget dock: what the arbiter predicts and what images take, how much each lever was changed, and how
-/// exact the predictions are. It records what is flown, to fly it again with other settings and to compare.
+/// exact the predictions are. What was flown while a trace was recorded is flown again with other settings,
+/// to compare.
 class BudgetPanel : public QWidget {
   Q_OBJECT
  public:
@@ -29,13 +30,14 @@ class BudgetPanel : public QWidget {
 
   /// Shows a frame whose image was drawn. Frames between images change nothing.
   void showFrame(const LiveFrame& frame);
+  /// Begins a new run with what is flown from now on, or ends it. A run is RecordedRun::kLongestS at most.
+  void setRecording(bool on);
 
   QString stateText() const;
   /// Returns how the limit of predictions follows from the budget.
   QString limitText() const;
   QString residualsText() const;
   QString comparisonText() const;
-  QPushButton& recordButton() { return *record_; }
   QPushButton& replayButton() { return *replay_; }
   /// Chooses what flies again: the preset as it is, or with policy and budget switched.
   QComboBox& modeChoice() { return *mode_; }
@@ -51,7 +53,6 @@ class BudgetPanel : public QWidget {
   static constexpr std::size_t kOutcomes = 300;
 
   QLayout* makeRecorder();
-  void setRecording(bool on);
   void askReplay();
   void addToRun(const LiveFrame& frame);
   void compare();
@@ -65,7 +66,7 @@ class BudgetPanel : public QWidget {
   Draft& draft_;
   QLabel *state_, *limit_, *residuals_, *comparison_, *busy_;
   BudgetPlot* plot_;
-  QPushButton *record_, *replay_;
+  QPushButton* replay_;
   QTableWidget* levers_;
   ReasonList* reasons_;
   QComboBox* mode_;
@@ -76,6 +77,7 @@ class BudgetPanel : public QWidget {
   /// These samples are of predictions that came due: how far off they were, as a share, and 1 if the measured
   /// time was within the band.
   SampleWindow trianglesOff_{kOutcomes}, timeOff_{kOutcomes}, within_{kOutcomes};
+  bool recording_ = false;
   RecordedRun recorded_, replayed_;
   MachineWatch watch_;              ///< since the recording began
   std::size_t comparedImages_ = 0;  ///< the images of both runs that the comparison counts

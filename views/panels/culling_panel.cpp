@@ -8,6 +8,7 @@
 #include <QToolButton>
 #include <cmath>
 
+#include "trimtab/frame/overlay_colours.h"
 #include "views/controls/bar_list.h"
 #include "views/controls/parameter_lines.h"
 #include "views/insets/depth_map_inset.h"
@@ -205,17 +206,22 @@ void CullingPanel::refresh() {
   const FrameResult& f = frame_.drawn();
   const FrameCounters& work = f.counters;
   const double all = std::max<double>(1, static_cast<double>(f.tilesInCut));
-  const auto bar = [&](const QString& name, std::size_t nodes, const QString& more, int colour) {
-    return BarList::Bar{name,   static_cast<double>(nodes), all, count(nodes) + more, {},
-                        colour, f.tilesInCut == 0};
+  const auto bar = [&](const QString& name, std::size_t nodes, const QString& more, CullReason reason) {
+    const auto [red, green, blue] = reasonColour(reason);
+    return BarList::Bar{.name = name,
+                        .value = static_cast<double>(nodes),
+                        .top = all,
+                        .text = count(nodes) + more,
+                        .quiet = f.tilesInCut == 0,
+                        .given = QColor(red, green, blue)};
   };
-  // These are the colours of an image that is coloured by reason, as near as the palette has them.
   reasons_->setBars(
-      {bar(tr("drawn"), f.visible.tiles.size(), tr(" (%1 triangles)").arg(count(f.visible.triangles)), 2),
-       bar(tr("outside the frustum"), f.visible.outsideFrustum, {}, 1),
-       bar(tr("occluded"), f.visible.occluded, {}, 3),
-       bar(tr("beyond visibility"), f.visible.beyondVisibility, {}, 4),
-       bar(tr("facing away"), f.visible.backFacing, {}, 0)});
+      {bar(tr("drawn"), f.visible.tiles.size(), tr(" (%1 triangles)").arg(count(f.visible.triangles)),
+           CullReason::drawn),
+       bar(tr("outside the frustum"), f.visible.outsideFrustum, {}, CullReason::outside_frustum),
+       bar(tr("occluded"), f.visible.occluded, {}, CullReason::occluded),
+       bar(tr("beyond visibility"), f.visible.beyondVisibility, {}, CullReason::beyond_visibility),
+       bar(tr("facing away"), f.visible.backFacing, {}, CullReason::back_facing)});
   work_->setText(tr("Cuts chosen %1, views %2; horizons built %3, moved along %4, left out %5; depth maps "
                     "by GL %6, by the processor %7, left out %8; frames in which nothing was worth its "
                     "cost %9.")

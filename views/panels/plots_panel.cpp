@@ -7,10 +7,7 @@
 #include <QComboBox>
 #include <QFileDialog>
 #include <QLabel>
-#include <QListWidget>
 #include <QMenu>
-#include <QMimeData>
-#include <QPushButton>
 #include <QScrollArea>
 #include <QSettings>
 #include <QSplitter>
@@ -21,7 +18,9 @@
 #include "decision_log.h"
 #include "frame_page.h"
 #include "plot_values.h"
+#include "signals_page.h"
 #include "views/controls/ask_csv_file.h"
+#include "views/controls/scrollable.h"
 #include "views/controls/tell_findings.h"
 #include "views/model/theme.h"
 #include "views/plots/plot_picture.h"
@@ -35,7 +34,6 @@ namespace {
 constexpr int kRefreshMs = 80, kSideMs = 500;
 constexpr int kWidePx = 620;
 constexpr double kChangeReachPx = 5;
-constexpr int kTraceRole = Qt::UserRole;
 const QString kSpanKey = QStringLiteral("plots/span_s"), kLanesKey = QStringLiteral("plots/lanes"),
               kRobustKey = QStringLiteral("plots/robust"), kFramesKey = QStringLiteral("plots/frames");
 
@@ -59,19 +57,6 @@ class PlotArea : public QScrollArea {
   TimePlot* plot_;
 };
 
-/// A list whose rows can be dragged into a plot.
-class SignalList : public QListWidget {
- protected:
-  QStringList mimeTypes() const override { return {QString::fromLatin1(TimePlot::kSignalMime)}; }
-  QMimeData* mimeData(const QList<QListWidgetItem*>& items) const override {
-    auto* carried = new QMimeData;
-    if (!items.isEmpty())
-      carried->setData(QString::fromLatin1(TimePlot::kSignalMime),
-                       items.front()->data(kTraceRole).toString().toUtf8());
-    return carried;
-  }
-};
-
 }  // namespace
 
 PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
@@ -80,7 +65,7 @@ PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
       plot_(new TimePlot(buffer_, &marks_, standardLanes())),
       values_(new PlotValues(buffer_, *plot_)),
       framePage_(new FramePage(buffer_)),
-      signalList_(new SignalList),
+      signals_(new SignalsPage),
       side_(new QTabWidget),
       parts_(new QSplitter(Qt::Horizontal)),
       tracked_(new QLabel),
@@ -139,6 +124,8 @@ PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
   connect(plot_, &TimePlot::tracked, this, &PlotsPanel::showTracked);
   connect(plot_, &TimePlot::frameClicked, this, &PlotsPanel::chooseFrame);
   connect(plot_, &TimePlot::spikeAsked, this, &PlotsPanel::chooseSpike);
+  connect(signals_, &SignalsPage::added, plot_,
+          [this](Trace trace) { plot_->addSignal(plot_->currentLane(), trace); });
   connect(framePage_, &FramePage::frameAsked, this, &PlotsPanel::chooseFrame);
   connect(framePage_, &FramePage::spikeAsked, this, &PlotsPanel::chooseSpike);
   const auto budget = [this] { plot_->setBudget(draft_.active()->measure.budget.value()); };
@@ -148,49 +135,14 @@ PlotsPanel::PlotsPanel(Draft& draft, QWidget* parent)
 
 QWidget* PlotsPanel::makeSide() {
   side_->addTab(values_, tr("Values"));
-  side_->addTab(framePage_, tr("Frame"));
-  side_->addTab(makeSignals(), tr("Signals"));
+  framePlace_ = scrollable(framePage_, tr("Frame"));
+  side_->addTab(framePlace_, tr("Frame"));
+  side_->addTab(signals_, tr("Signals"));
   side_->setAccessibleName(tr("Details of the plots"));
   side_->setMinimumWidth(240);
   side_->hide();
   connect(side_, &QTabWidget::currentChanged, &sideThrottle_, &Throttle::request);
   return side_;
-}
-
-QWidget* PlotsPanel::makeSignals() {
-  fillSignals();
-  auto* add = new QPushButton(tr("&Add signal"));
-  add->setToolTip(tr("Add the selected signal to the plot that was clicked last"));
-  add->setAutoDefault(false);
-  add->setEnabled(false);
-  connect(signalList_, &QListWidget::currentRowChanged, add, [add](int row) { add->setEnabled(row >= 0); });
-  connect(add, &QPushButton::clicked, this, [this] { addSignal(signalList_->currentItem()); });
-  auto* page = new QWidget;
-  auto* layout = new QVBoxLayout(page);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(4);
-  layout->addWidget(signalList_, 1);
-  layout->addWidget(add);
-  return page;
-}
-
-void PlotsPanel::addSignal(const QListWidgetItem* item) {
-  if (item == nullptr) return;
-  if (const auto trace = traceOf(item->data(kTraceRole).toString()))
-    plot_->addSignal(plot_->currentLane(), *trace);
-}
-
-void PlotsPanel::fillSignals() {
-  signalList_->setAccessibleName(tr("Signals"));
-  signalList_->setToolTip(
-      tr("Drag a signal into a plot; Enter adds it to the plot that was clicked last. The "
-         "menu of a plot adds, removes and makes plots."));
-  signalList_->setDragEnabled(true);
-  for (const PlotSignal& signal : plotSignals()) {
-    auto* item = new QListWidgetItem(signal.fullName(), signalList_);
-    item->setData(kTraceRole, fromView(traceName(signal.trace)));
-  }
-  connect(signalList_, &QListWidget::itemActivated, this, &PlotsPanel::addSignal);
 }
 
 void PlotsPanel::makeActions() {
@@ -264,6 +216,10 @@ void PlotsPanel::setBufferFrames(int frames) {
 void PlotsPanel::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
   parts_->setOrientation(width() < kWidePx ? Qt::Vertical : Qt::Horizontal);
+}
+
+QListWidget& PlotsPanel::signalList() {
+  return signals_->list();
 }
 
 QTableWidget& PlotsPanel::readout() {
@@ -349,7 +305,7 @@ void PlotsPanel::chooseFrame(std::uint64_t frame) {
     plot_->setShown(time - plot_->span() / 2, time + plot_->span() / 2);
   }
   plot_->choose(time);
-  side_->setCurrentWidget(framePage_);
+  side_->setCurrentWidget(framePlace_);
   details_->setChecked(true);
   showFrameOf(frame);
   emit frameChosen(buffer_.stateTime(frame));

@@ -12,7 +12,6 @@ class QAction;
 class QComboBox;
 class QLabel;
 class QListWidget;
-class QListWidgetItem;
 class QMenu;
 class QSettings;
 class QSplitter;
@@ -23,6 +22,7 @@ namespace trimtab::views {
 
 class FramePage;
 class PlotValues;
+class SignalsPage;
 class TimePlot;
 
 /// The Plots dock. Every frame is recorded, also while the dock is hidden or paused. The plots follow the
@@ -36,7 +36,7 @@ class PlotsPanel : public QWidget {
   const TraceBuffer& buffer() const { return buffer_; }
   QTableWidget& readout();
   FramePage& framePage() { return *framePage_; }
-  QListWidget& signalList() { return *signalList_; }
+  QListWidget& signalList();
   QString trackedText() const;
   void showFrame(const LiveFrame& frame);
   /// Marks from `time` on, on the clock of LiveFrame::time, that the host is silent or a trace is recorded.
@@ -75,9 +75,6 @@ class PlotsPanel : public QWidget {
   void makeActions();
   QMenu* makeMore();
   QWidget* makeSide();
-  void fillSignals();
-  QWidget* makeSignals();
-  void addSignal(const QListWidgetItem* item);
   void refresh();
   void refreshSide();
   void noteChange(const LiveFrame& frame);
@@ -94,7 +91,8 @@ class PlotsPanel : public QWidget {
   TimePlot* plot_;
   PlotValues* values_;
   FramePage* framePage_;
-  QListWidget* signalList_;
+  QWidget* framePlace_;  ///< scrolls the page, which is higher than a low dock
+  SignalsPage* signals_;
   QTabWidget* side_;
   QSplitter* parts_;
   QLabel* tracked_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "views/model/theme.h"
 
@@ -35,16 +36,18 @@ TraceGraph::Heights TraceGraph::take(const TraceBuffer& buffer, std::uint64_t fr
   buffer.columns(look_.trace, from, to, columns, columns_);
   points_.clear();
   highs_.clear();
-  // Nothing is drawn across a stretch without frames: an idle view paints none.
+  // Nothing is drawn across a stretch without frames, because an idle view paints none, nor across one as
+  // long in which the value is absent. A shorter absence makes no gap, whether or not it fills a column.
   const double span = columns_.size() > 1 ? columns_.back().time - columns_.front().time : 0;
   const double gap = std::max(TraceBuffer::kGapS, 4 * span / static_cast<double>(columns));
   double least = 0;
-  double last = columns_.empty() ? 0 : columns_.front().time;
+  std::optional<double> last;
   for (const TraceBuffer::Column& column : columns_) {
+    if (std::isnan(column.high)) continue;
     const double low = column.low * look_.scale, high = column.high * look_.scale;
     if (high > 0) highs_.push_back(high);
     if (low < least) least = low;
-    if (column.time - last > gap) points_.append({(column.time + last) / 2, std::nan("")});
+    if (last && column.time - *last > gap) points_.append({(column.time + *last) / 2, std::nan("")});
     last = column.time;
     // Stacked areas show their crests; lines show both ends of what a column holds.
     if (low != high && !look_.filled) points_.append({column.time, low});

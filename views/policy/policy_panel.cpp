@@ -174,28 +174,28 @@ void PolicyPanel::makeTabs() {
   p.shares = new SharesView;
   p.surface = new SurfacePage(*policy_, track_);
   p.findings = new FindingsPage(*policy_);
-  auto* levers = scrollable(p.levers, tr("Levers"));
+  auto* levers = new QWidget;
+  auto* column = new QVBoxLayout(levers);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addWidget(p.levers);
+  column->addWidget(p.shares, 1);
   p.tabs->addTab(p.terms, tr("Terms"));
   p.tabs->addTab(p.rules, tr("Rules"));
-  p.tabs->addTab(levers, tr("Levers"));
-  p.tabs->addTab(p.shares, tr("Shares"));
+  p.tabs->addTab(scrollable(levers, tr("Levers")), tr("Levers"));
   p.tabs->addTab(p.surface, tr("Surface"));
   p.tabs->addTab(p.findings, tr("Findings"));
-  p.tabs->setTabToolTip(2, tr("Where the levers are, and which rules put them there"));
-  p.tabs->setTabToolTip(3, tr("How far each rule fires, and its share in each lever"));
-  p.tabs->setTabToolTip(4, tr("A lever over two signals"));
-  p.tabs->setTabToolTip(5, tr("What is allowed and probably not meant"));
+  p.tabs->setTabToolTip(2, tr("Where the levers are, and the share of each rule in them"));
+  p.tabs->setTabToolTip(3, tr("A lever over two signals"));
+  p.tabs->setTabToolTip(4, tr("What is allowed and probably not meant"));
   connect(p.plot, &TermPlot::typingAsked, this, [this] {
     parts_.tabs->setCurrentWidget(parts_.terms);
     parts_.terms->typeNumbers();
   });
   connect(p.plot, &TermPlot::refused, this, [this] { parts_.tabs->setCurrentWidget(parts_.terms); });
-  connect(p.rules, &RulesPage::importAsked, this, &PolicyPanel::askAndImport);
-  connect(p.rules, &RulesPage::exportAsked, this, &PolicyPanel::askAndExport);
   connect(p.findings, &FindingsPage::ruleAsked, this, &PolicyPanel::showRule);
   connect(p.findings, &FindingsPage::termAsked, this, &PolicyPanel::showTerm);
   connect(p.findings, &FindingsPage::countChanged, this, [this](int count) {
-    parts_.tabs->setTabText(5, count == 0 ? tr("Findings") : tr("Findings (%1)").arg(count));
+    parts_.tabs->setTabText(4, count == 0 ? tr("Findings") : tr("Findings (%1)").arg(count));
   });
 }
 
@@ -226,6 +226,13 @@ void PolicyPanel::choose() {
     right_->setCurrentWidget(parts_.plot);
   } else {
     right_->setCurrentWidget(parts_.scheme);
+  }
+  // Of both, only the one that is shown asks for its width.
+  for (QWidget* page : {static_cast<QWidget*>(parts_.scheme), static_cast<QWidget*>(parts_.plot)}) {
+    QSizePolicy width = page->sizePolicy();
+    width.setHorizontalPolicy(page == right_->currentWidget() ? QSizePolicy::Expanding
+                                                              : QSizePolicy::Ignored);
+    page->setSizePolicy(width);
   }
   // The curves of the scheme stand beside their tables and need the room of the values.
   const bool narrower = std::exchange(schemeShown_, !signal) != !signal;

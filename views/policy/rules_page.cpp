@@ -61,12 +61,6 @@ RulesPage::RulesPage(PolicyDraft& policy, QWidget* parent)
   up_ = buttons->add(tr("Up"), tr("Move the selected rule up (Alt+Up)"));
   down_ = buttons->add(tr("Down"), tr("Move the selected rule down (Alt+Down)"));
   find_ = buttons->add(tr("Find"), tr("Find a rule by a part of its line (F3; Shift+F3 finds backwards)"));
-  buttons->addSpace();
-  QToolButton* const load =
-      buttons->add(tr("Import…"), tr("Take a policy from a file of a fuzzy-logic tool"));
-  QToolButton* const save = buttons->add(tr("Export…"), tr("Write the policy that runs to such a file"));
-  connect(load, &QToolButton::clicked, this, &RulesPage::importAsked);
-  connect(save, &QToolButton::clicked, this, &RulesPage::exportAsked);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
   layout->setSpacing(4);

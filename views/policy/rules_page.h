@@ -38,10 +38,6 @@ class RulesPage : public QWidget {
   /// if there is none.
   void findRule(int by);
 
- signals:
-  void importAsked();
-  void exportAsked();
-
  protected:
   void resizeEvent(QResizeEvent* event) override;
 

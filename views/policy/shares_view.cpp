@@ -121,7 +121,7 @@ SharesView::SharesView(QWidget* parent) : QTableView(parent), model_(new SharesM
   verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
   verticalHeader()->setMinimumSectionSize(fontMetrics().height() + 2);
   verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 5);
-  setMinimumHeight(fontMetrics().height() * 5);
+  setMinimumHeight(fontMetrics().height() * 9);
   const auto arrange = [this] {
     const int bar = fontMetrics().horizontalAdvance(QStringLiteral("distance")) + 12;
     horizontalHeader()->setMinimumSectionSize(bar);

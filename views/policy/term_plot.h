@@ -29,7 +29,7 @@ class TermPlot : public PointPlot {
   static QColor colourOf(std::size_t place, const QPalette& palette);
 
   QSize sizeHint() const override { return {420, 230}; }
-  QSize minimumSizeHint() const override { return {200, 130}; }
+  QSize minimumSizeHint() const override { return {160, 130}; }
 
  public slots:
   void removeSelected() override;

@@ -5,7 +5,7 @@
 #include <QStringList>
 #include <cmath>
 
-#include "trimtab/scene/overlay_colours.h"
+#include "trimtab/frame/overlay_colours.h"
 #include "trimtab/terrain/format/patch_terrain.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "views/model/theme.h"
@@ -19,7 +19,7 @@ QColor colourOf(const std::array<std::uint8_t, 3>& c) {
 
 QList<LegendEntry> reasonLegend() {
   const auto entry = [](const QString& text, CullReason reason) {
-    return LegendEntry{text, colourOf(scene::reasonColour(reason))};
+    return LegendEntry{text, colourOf(reasonColour(reason))};
   };
   return {entry(QObject::tr("drawn"), CullReason::drawn),
           entry(QObject::tr("outside the frustum"), CullReason::outside_frustum),
@@ -31,7 +31,7 @@ QList<LegendEntry> reasonLegend() {
 QList<LegendEntry> levelLegend(std::size_t levels) {
   QList<LegendEntry> entries;
   for (int level = 0; level < static_cast<int>(levels); ++level)
-    entries.append({QObject::tr("level %1").arg(level), colourOf(scene::levelColour(level))});
+    entries.append({QObject::tr("level %1").arg(level), colourOf(levelColour(level))});
   return entries;
 }
 

@@ -51,6 +51,22 @@ BenchChoice lastChoice() {
 
 }  // namespace
 
+QStringList BenchChoice::arguments(const QString& terrain, const QString& flight,
+                                   const QString& draft) const {
+  QStringList arguments{QStringLiteral("bench"), QStringLiteral("--terrain"), terrain,
+                        QStringLiteral("--flight"), flight};
+  arguments << QStringLiteral("--preset");
+  for (const QString& preset : presets) arguments << (preset == BenchChoice::kDraft ? draft : preset);
+  for (const QString& sweep : sweeps) arguments << QStringLiteral("--sweep") << sweep;
+  arguments << QStringLiteral("--cases") << cases.join(QLatin1Char(','))  //
+            << QStringLiteral("--size") << size                           //
+            << QStringLiteral("--frames") << QString::number(frames)      //
+            << QStringLiteral("--repeats") << QString::number(repeats)    //
+            << QStringLiteral("-o") << folder;
+  if (whole) arguments << QStringLiteral("--whole");
+  return arguments;
+}
+
 BenchDialog::BenchDialog(const QString& folder, QWidget* parent)
     : QDialog(parent),
       presets_(new QListWidget(this)),

@@ -27,6 +27,10 @@ struct BenchChoice {
   bool whole = false;  ///< draws every image of presets that decide by their own images
   QStringList sweeps;  ///< "KEY=A,B,...": each preset is measured at each of these values; at most two
   QString folder;      ///< for the results; a measurement that was stopped there is resumed
+
+  /// Returns the command line that measures this over a terrain and along a flight, which are files, as is
+  /// the draft.
+  QStringList arguments(const QString& terrain, const QString& flight, const QString& draft) const;
 };
 
 /// Asks a person what to measure. It begins with what was measured last.

@@ -23,9 +23,9 @@
 #include <cmath>
 
 #include "answer_page.h"
+#include "measured_run.h"
 #include "sweep_page.h"
 #include "trimtab/preset/file_io.h"
-#include "views/model/error_run.h"
 #include "views/model/theme.h"
 
 namespace trimtab::workbench {
@@ -33,49 +33,6 @@ namespace {
 
 constexpr int kControlsPx = 214;
 constexpr auto kFirstError = "flip";
-
-template <class Use>
-void eachError(const Use& use) {
-  for (const harness::Quantity& quantity : harness::quantities())
-    if (quantity.kind == harness::Quantity::Kind::error) use(quantity);
-}
-
-QVector<views::ErrorRun::Error> errorList() {
-  QVector<views::ErrorRun::Error> list;
-  eachError([&](const harness::Quantity& q) {
-    list.append({views::fromView(q.key), views::fromView(q.label), views::fromView(q.unit), q.largerIsWorse});
-  });
-  return list;
-}
-
-QVector<double> errorsOf(const harness::MeasuredFrame& frame) {
-  QVector<double> values;
-  eachError([&](const harness::Quantity& q) { values.append(q.of(frame)); });
-  return values;
-}
-
-views::ErrorRun toView(const harness::Results& results) {
-  views::ErrorRun run{errorList(), {}, results.widthPx, results.heightPx};
-  for (const harness::Unit& unit : results.units) {
-    views::ErrorRun::Series s{QString::fromStdString(unit.name.flight),
-                              QString::fromStdString(unit.name.preset),
-                              QString::fromStdString(unit.name.method),
-                              {},
-                              {},
-                              QVector<QVector<double>>(run.errors.size()),
-                              {}};
-    for (const harness::MeasuredFrame& frame : unit.frames) {
-      s.timeS.append(frame.timeS);
-      s.ms.append(frame.cost.total);
-      const QVector<double> errors = errorsOf(frame);
-      for (qsizetype i = 0; i < errors.size(); ++i) s.errors[i].append(errors[i]);
-    }
-    for (const harness::WorstFrame& worst : unit.worst)
-      s.worst.append({qsizetype(worst.frame), QString::fromStdString(worst.why)});
-    run.series.append(std::move(s));
-  }
-  return run;
-}
 
 /// Where results are kept unless the person says otherwise.
 QString newFolder() {
@@ -109,7 +66,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
       answer_(new AnswerPage(this)),
       sweep_(new SweepPage(this)),
       pages_(new QTabWidget(this)) {
-  const views::ErrorRun nothing{errorList(), {}};
+  const views::ErrorRun nothing{measuredErrors(), {}};
   for (const views::ErrorRun::Error& error : nothing.errors) errors_->addItem(titleOf(error), error.key);
   errors_->setCurrentIndex(std::max(0, errors_->findData(QLatin1String(kFirstError))));
   errors_->setAccessibleName(tr("Error"));
@@ -289,22 +246,19 @@ void ErrorDock::showAnswer() {
 void ErrorDock::onMeasured(const LiveMeter::Measured& measured) {
   lastMeasured_ = measured;
   emit flipChanged(measured.error.flip);
-  harness::MeasuredFrame frame;
-  frame.error = measured.error;
-  plot_->showLive({measured.frameMs, errorsOf(frame), measured.imageWidthPx, measured.imageHeightPx});
+  plot_->showLive(
+      {measured.frameMs, errorsOf(measured.error), measured.imageWidthPx, measured.imageHeightPx});
   liveLabel_->setText(liveText());
 }
 
 QString ErrorDock::liveText() const {
   if (!liveOn_->isChecked()) return tr("Live: off");
   if (!lastMeasured_) return tr("Live: waiting for an image");
-  harness::MeasuredFrame frame;
-  frame.error = lastMeasured_->error;
   const int index = errors_->currentIndex();
-  const QVector<views::ErrorRun::Error> errors = errorList();
+  const QVector<views::ErrorRun::Error> errors = measuredErrors();
   if (index < 0 || index >= errors.size()) return {};
   return tr("Live: %1 %2, frame %3.\nMeasured in %4 at %L5 × %L6 px%7.")
-      .arg(errors[index].label, textOf(errors[index], errorsOf(frame)[index]),
+      .arg(errors[index].label, textOf(errors[index], errorsOf(lastMeasured_->error)[index]),
            views::msText(lastMeasured_->frameMs), views::msText(lastMeasured_->tookMs))
       .arg(lastMeasured_->widthPx)
       .arg(lastMeasured_->heightPx)
@@ -341,22 +295,10 @@ void ErrorDock::measure(const BenchChoice& choice) {
   if (running()) return;
   const std::optional<Inputs> inputs = source_(folder_.path());
   if (!inputs) return;
-  QStringList arguments{QStringLiteral("bench"), QStringLiteral("--terrain"), inputs->terrain,
-                        QStringLiteral("--flight"), inputs->flight};
-  arguments << QStringLiteral("--preset");
-  for (const QString& preset : choice.presets)
-    arguments << (preset == BenchChoice::kDraft ? inputs->draft : preset);
-  for (const QString& sweep : choice.sweeps) arguments << QStringLiteral("--sweep") << sweep;
-  arguments << QStringLiteral("--cases") << choice.cases.join(QLatin1Char(','))  //
-            << QStringLiteral("--size") << choice.size                           //
-            << QStringLiteral("--frames") << QString::number(choice.frames)      //
-            << QStringLiteral("--repeats") << QString::number(choice.repeats)    //
-            << QStringLiteral("-o") << choice.folder;
-  if (choice.whole) arguments << QStringLiteral("--whole");
   measuring_ = choice.folder + QStringLiteral("/results.json");
   setRunning(true);
   status_->setText(tr("Starting…"));
-  child_.start(arguments);
+  child_.start(choice.arguments(inputs->terrain, inputs->flight, inputs->draft));
 }
 
 void ErrorDock::cancel() {
@@ -406,7 +348,7 @@ bool ErrorDock::openResults(const QString& file) {
 void ErrorDock::showResults() {
   report_->setEnabled(!report().isEmpty());
   report_->setToolTip(report().isEmpty() ? tr("There is no report.html beside the results") : report());
-  const views::ErrorRun run = results_ ? toView(*results_) : views::ErrorRun{errorList(), {}, 0, 0};
+  const views::ErrorRun run = results_ ? measuredRun(*results_) : views::ErrorRun{measuredErrors(), {}, 0, 0};
   plot_->show(run);
   timeline_->show(run);
   flights_->clear();

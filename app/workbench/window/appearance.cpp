@@ -113,7 +113,11 @@ void addAppearances(QMenu& menu) {
     });
   }
   menu.addActions(group->actions());
-  if (chosen > 0 && chosen < int(names.size())) apply(static_cast<Appearance>(chosen));
+}
+
+void applyChosen() {
+  const int chosen = QSettings().value(kKey, 0).toInt();
+  if (chosen > 0 && chosen <= int(Appearance::dark)) apply(static_cast<Appearance>(chosen));
 }
 
 }  // namespace trimtab::workbench

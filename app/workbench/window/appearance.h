@@ -9,7 +9,9 @@ enum class Appearance { system, light, dark };
 
 /// Gives the whole program the colours of the desktop, or light or dark ones of its own.
 void apply(Appearance appearance);
-/// Applies what was chosen last, and fills a menu with the choices, which it keeps.
+/// Applies what was chosen last. Call it before widgets are made, because some keep colours from then.
+void applyChosen();
+/// Fills a menu with the choices, which it keeps.
 void addAppearances(QMenu& menu);
 
 }  // namespace trimtab::workbench

@@ -7,7 +7,9 @@
 #include <QTabWidget>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "app/workbench/docks/dock_of.h"
 #include "views/controls/scrollable.h"
 
 namespace trimtab::workbench {
@@ -35,9 +37,6 @@ void DockLayout::addPage(const char* name, const QString& title, QWidget* conten
   if (pages == nullptr) {
     QWidget* const first = dock->widget->widget();
     pages = new QTabWidget;
-    // Pages scroll. Else the tallest page, seen or not, would squeeze the dock above.
-    constexpr int kLeastHeightPx = 150;
-    pages->setMinimumHeight(kLeastHeightPx);
     pages->setDocumentMode(true);
     pages->setAccessibleName(dock->widget->windowTitle());
     dock->widget->setWidget(pages);
@@ -68,19 +67,38 @@ void DockLayout::arrange(const Arrangement& wanted) {
   const QList<QDockWidget*> right = put(wanted.right, Qt::RightDockWidgetArea, Qt::Vertical),
                             foot = put(wanted.foot, Qt::BottomDockWidgetArea, Qt::Horizontal);
   hideAtHome();
+  shares_.clear();
   const auto size = [&](const QList<QDockWidget*>& fronts, const std::vector<Arrangement::Group>& groups,
-                        Qt::Orientation along, double lengthPx, double depthPx) {
+                        Qt::Orientation along, int lengthPx, double depth) {
     if (fronts.isEmpty()) return;
     QList<int> lengths;
     for (const Arrangement::Group& group : groups) lengths << static_cast<int>(group.share * lengthPx);
     window_.resizeDocks(fronts, lengths, along);
-    window_.resizeDocks({fronts.first()}, {static_cast<int>(depthPx)},
-                        along == Qt::Vertical ? Qt::Horizontal : Qt::Vertical);
+    shares_.push_back({fronts.first(), along == Qt::Vertical ? Qt::Horizontal : Qt::Vertical, depth});
     for (QDockWidget* front : fronts) front->raise();
   };
-  const double widthPx = window_.width(), heightPx = window_.height();
-  size(right, wanted.right, Qt::Vertical, heightPx, wanted.rightShare * widthPx);
-  size(foot, wanted.foot, Qt::Horizontal, widthPx, wanted.footShare * heightPx);
+  size(right, wanted.right, Qt::Vertical, window_.height(), wanted.rightShare);
+  size(foot, wanted.foot, Qt::Horizontal, window_.width(), wanted.footShare);
+  keepShares();
+}
+
+void DockLayout::keepShares() {
+  for (const Share& share : shares_) {
+    if (share.dock->isHidden() || share.dock->isFloating()) continue;
+    const int whole = share.along == Qt::Horizontal ? window_.width() : window_.height();
+    window_.resizeDocks({share.dock}, {static_cast<int>(std::lround(share.share * whole))}, share.along);
+  }
+}
+
+void DockLayout::noteShares(QSize window) {
+  shares_.clear();
+  for (const Dock& each : docks_) {
+    if (!isInFront(*each.widget) || each.widget->isFloating()) continue;
+    if (window_.dockWidgetArea(each.widget) == Qt::BottomDockWidgetArea)
+      shares_.push_back({each.widget, Qt::Vertical, double(each.widget->height()) / window.height()});
+    else
+      shares_.push_back({each.widget, Qt::Horizontal, double(each.widget->width()) / window.width()});
+  }
 }
 
 /// Returns the front dock of each group.

@@ -54,16 +54,25 @@ class DockLayout {
   }
   /// Sets the question that a dock answers, as its tool tip.
   void setQuestion(const char* name, const QString& question);
-  /// Sizes are those of the window as it is now.
   void arrange(const Arrangement& wanted);
   /// Shows every dock where it is at home, as tabs.
   void arrangeAll();
+  /// Gives the column on the right and the foot their share of the window as it is now. Qt itself leaves what
+  /// the window gains to the image.
+  void keepShares();
+  /// Takes the shares that they have of a window of this size as those to keep.
+  void noteShares(QSize window);
   void showFrame(const views::LiveFrame& frame) const;
 
  private:
   struct Dock {
     QDockWidget* widget;
     Place place;
+  };
+  struct Share {
+    QDockWidget* dock;
+    Qt::Orientation along;
+    double share;  ///< of the window's width or height
   };
   void addDock(const char* name, const QString& title, Place place, QWidget* content);
   void addPage(const char* name, const QString& title, QWidget* content);
@@ -74,6 +83,7 @@ class DockLayout {
 
   QMainWindow& window_;
   std::vector<Dock> docks_;
+  std::vector<Share> shares_;
   std::vector<std::function<void(const views::LiveFrame&)>> viewers_;
 };
 

@@ -29,6 +29,7 @@
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/viewport/split_view.h"
 #include "app/workbench/window/palette_entries.h"
+#include "appearance.h"
 #include "job_bar.h"
 #include "menus.h"
 #include "notice_bar.h"
@@ -57,6 +58,7 @@ const QString kGeometryKey = QStringLiteral("window/geometry");
 }  // namespace
 
 MainWindow::MainWindow() {
+  applyChosen();
   setObjectName(QStringLiteral("trimtab"));
   setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks | GroupedDragging);
   setAcceptDrops(true);
@@ -281,8 +283,8 @@ void MainWindow::openAny(const QString& path) {
 }
 
 void MainWindow::askImport() {
-  const QString file = QFileDialog::getOpenFileName(this, tr("Import"), {},
-                                                    tr("Policies (*.fll *.fis);;All files (*)"));
+  const QString file =
+      QFileDialog::getOpenFileName(this, tr("Import"), {}, tr("Policies (*.fll *.fis);;All files (*)"));
   if (!file.isEmpty()) openAny(file);
 }
 
@@ -308,9 +310,13 @@ void MainWindow::childEvent(QChildEvent* event) {
   if (auto* bar = event->polished() ? qobject_cast<QTabBar*>(event->child()) : nullptr) arrangeTabs(*bar);
 }
 
-void MainWindow::changeEvent(QEvent* event) {
-  QMainWindow::changeEvent(event);
+bool MainWindow::event(QEvent* event) {
+  const bool known = QMainWindow::event(event);
   if (event->type() == QEvent::WindowStateChange) showPause();
+  if (event->type() == QEvent::Resize) docks_.keepShares();
+  // A person lets go of a handle between docks. Clicks that nobody takes arrive here too, not accepted.
+  if (event->type() == QEvent::MouseButtonRelease && event->isAccepted()) docks_.noteShares(size());
+  return known;
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
@@ -338,6 +344,7 @@ void MainWindow::start(const Options& options) {
   }
   workspaces_->begin();
   show();
+  docks_.noteShares(size());
   viewport_->setFocus();
   if (!options.preset.isEmpty()) c.document->open(options.preset);
   if (options.terrain.isEmpty())

@@ -34,6 +34,8 @@ void connectPlots(const Panels& panels, const Controllers& controllers, Feed& fe
   QObject::connect(
       controllers.trace.get(), &TraceController::recordingChanged, plots,
       [plots, frames](bool recording) { plots->mark(Mark::recording, recording, frames->clock()); });
+  QObject::connect(controllers.trace.get(), &TraceController::recordingChanged, panels.budget,
+                   &views::BudgetPanel::setRecording);
   views::TimePlot* const stages = panels.culling->stages();
   const std::array<views::ClockPlot*, 4> all{&plots->plot(), stages, &panels.budget->plot(),
                                              &panels.motion->plot()};

@@ -60,7 +60,7 @@ std::size_t Workspaces::shipped() {
 
 Workspaces::Workspaces(QMainWindow& window, DockLayout& docks)
     : QObject(&window), window_(window), docks_(docks) {
-  for (const Shipped& each : shippedList()) all_.push_back({tr(each.name), {}, {}});
+  for (const Shipped& each : shippedList()) all_.push_back({tr(each.name), {}, {}, {}});
 }
 
 QStringList Workspaces::names() const {
@@ -71,16 +71,25 @@ QStringList Workspaces::names() const {
 
 void Workspaces::show(int index) {
   if (index < 0 || std::size_t(index) >= all_.size()) return;
-  all_[std::size_t(current_)].left = window_.saveState(kDocksVersion);
+  leave();
   apply(index);
+}
+
+void Workspaces::leave() {
+  all_[std::size_t(current_)].left = window_.saveState(kDocksVersion);
+  all_[std::size_t(current_)].leftAt = window_.size();
 }
 
 void Workspaces::apply(int index) {
   current_ = index;
   const Workspace& wanted = all_[std::size_t(index)];
   const bool asLeft = !wanted.left.isEmpty() && window_.restoreState(wanted.left, kDocksVersion);
-  if (!asLeft && !restore(wanted.saved))
+  if (!asLeft && !restore(wanted.saved)) {
     docks_.arrange(shippedList()[std::min(std::size_t(index), shipped() - 1)].docks);
+  } else {
+    docks_.noteShares(asLeft && !wanted.leftAt.isEmpty() ? wanted.leftAt : window_.size());
+    docks_.keepShares();
+  }
   emit currentChanged(index);
 }
 
@@ -96,9 +105,9 @@ void Workspaces::reset() {
 }
 
 void Workspaces::add(const QString& name, const QByteArray& state) {
-  all_[std::size_t(current_)].left = window_.saveState(kDocksVersion);
+  leave();
   auto at = std::find_if(all_.begin(), all_.end(), [&](const Workspace& each) { return each.name == name; });
-  if (at == all_.end()) at = all_.insert(at, {name, {}, {}});
+  if (at == all_.end()) at = all_.insert(at, {name, {}, {}, {}});
   at->saved = state;
   at->left.clear();
   emit listChanged();
@@ -173,10 +182,11 @@ void Workspaces::begin() {
     const QString name = settings.value(QStringLiteral("name")).toString();
     const QByteArray saved = settings.value(QStringLiteral("saved")).toByteArray(),
                      left = settings.value(QStringLiteral("left")).toByteArray();
+    const QSize leftAt = settings.value(QStringLiteral("left_at")).toSize();
     if (const std::size_t at = indexOf(name); at < all_.size())
-      all_[at].left = left;
+      all_[at].left = left, all_[at].leftAt = leftAt;
     else if (!saved.isEmpty())
-      all_.push_back({name, saved, left});
+      all_.push_back({name, saved, left, leftAt});
     // Else it is one that shipped with an earlier version.
   }
   settings.endArray();
@@ -186,7 +196,7 @@ void Workspaces::begin() {
 }
 
 void Workspaces::keep() {
-  all_[std::size_t(current_)].left = window_.saveState(kDocksVersion);
+  leave();
   QSettings settings;
   settings.beginWriteArray(QStringLiteral("workspaces"), int(all_.size()));
   for (std::size_t i = 0; i < all_.size(); ++i) {
@@ -194,6 +204,7 @@ void Workspaces::keep() {
     settings.setValue(QStringLiteral("name"), keptName(i));
     settings.setValue(QStringLiteral("saved"), all_[i].saved);
     settings.setValue(QStringLiteral("left"), all_[i].left);
+    settings.setValue(QStringLiteral("left_at"), all_[i].leftAt);
   }
   settings.endArray();
   settings.setValue(QStringLiteral("workspace"), keptName(std::size_t(current_)));

@@ -3,6 +3,7 @@
 
 #include <QByteArray>
 #include <QObject>
+#include <QSize>
 #include <QString>
 #include <QStringList>
 #include <vector>
@@ -56,8 +57,10 @@ class Workspaces : public QObject {
     QString name;
     QByteArray saved;  ///< empty for those that ship
     QByteArray left;   ///< how the docks stood last; empty: as they ship, or as saved
+    QSize leftAt;      ///< the window's size then
   };
   static std::size_t shipped();
+  void leave();
   void apply(int index);
   /// Puts the docks as this or an earlier version of the program saved them. Returns false if it is no
   /// layout.

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "core/scene/gl/gl_api.h"
-#include "trimtab/scene/overlay_colours.h"
+#include "trimtab/frame/overlay_colours.h"
 
 namespace trimtab::scene {
 namespace {

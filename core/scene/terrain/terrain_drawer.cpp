@@ -11,8 +11,8 @@
 #include "trimtab/culling/back_facing.h"
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
+#include "trimtab/frame/overlay_colours.h"
 #include "trimtab/frame/overlays.h"
-#include "trimtab/scene/overlay_colours.h"
 
 namespace trimtab::scene {
 namespace {

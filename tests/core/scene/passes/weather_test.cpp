@@ -4,7 +4,7 @@
 #include "tests/core/scene/scene_test.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
-#include "trimtab/scene/overlay_colours.h"
+#include "trimtab/frame/overlay_colours.h"
 #include "trimtab/scene/weather_cut_error.h"
 #include "trimtab/units/not_finite.h"
 
@@ -302,7 +302,7 @@ TEST_F(Weather, showsWhatItCullsByAColourOfItsOwn) {
   FrameResult result;
   const Pixels8 shown = picture(r, &result);
   ASSERT_GT(result.visible.beyondVisibility, 0u);
-  const auto colour = scene::reasonColour(CullReason::beyond_visibility);
+  const auto colour = reasonColour(CullReason::beyond_visibility);
   EXPECT_GT(int{colour[2]}, int{colour[0]}) << "blue";
   const auto metres = renderer.readDistances();
   std::size_t blue = 0, far = 0;

@@ -1,6 +1,6 @@
-#include "trimtab/scene/overlay_colours.h"
+#include "trimtab/frame/overlay_colours.h"
 
-namespace trimtab::scene {
+namespace trimtab {
 
 std::array<std::uint8_t, 3> reasonColour(CullReason reason) {
   switch (reason) {
@@ -31,4 +31,4 @@ std::array<std::uint8_t, 3> levelColour(int level) {
   return kColours[static_cast<std::size_t>(level < 0 ? 0 : level) % kColours.size()];
 }
 
-}  // namespace trimtab::scene
+}  // namespace trimtab
