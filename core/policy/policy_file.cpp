@@ -6,6 +6,7 @@
 
 #include "condition.h"
 #include "fuzzy_shapes.h"
+#include "mapped_system.h"
 #include "order_zero.h"
 #include "trimtab/policy/compiled_policy.h"
 #include "trimtab/units/finding_list.h"
@@ -15,14 +16,9 @@
 namespace trimtab {
 namespace {
 
+using fuzzy_system::kFormerOutput;
+using fuzzy_system::leverOfOutput;
 using fuzzy_system::System;
-
-/// The output of rule files that were written for the former rule base of the culling scheme: the total,
-/// which the lever occlusion sets now, and 0 where no rule fired.
-constexpr std::string_view kFormerOutput = "total";
-std::optional<Lever> leverOfOutput(std::string_view name) {
-  return name == kFormerOutput ? Lever::occlusion : leverNamed(name);
-}
 
 struct Norms {
   std::string_view conjunction, disjunction;
@@ -91,7 +87,8 @@ fuzzy_system::Rule ruleOf(const PolicyRule& rule, const System& system) {
 
 class Translation {
  public:
-  Translation(const System& system, const std::string& where) : system_(system), where_(where) {}
+  /// Takes a system whose variables are named by keys.
+  Translation(System system, const std::string& where) : system_(std::move(system)), where_(where) {}
 
   Result<Policy> run() {
     for (const fuzzy_system::Variable& input : system_.inputs) addTerms(input);
@@ -116,7 +113,6 @@ class Translation {
 
   void addTerms(const fuzzy_system::Variable& input) {
     const auto signal = signalNamed(input.name);
-    if (!signal) return refuse(input.where, "input", "the key of a signal", input.name);
     const Range range = rowOf(*signal).range;
     if (input.lockRange && (input.range.low != range.low || input.range.high != range.high))
       refuse(input.where, "input " + input.name,
@@ -136,7 +132,6 @@ class Translation {
   }
 
   void checkOutput(const fuzzy_system::Variable& output) {
-    if (!leverOfOutput(output.name)) refuse(output.where, "output", "the key of a lever", output.name);
     if (!std::isnan(output.unfired) && !(output.name == kFormerOutput && output.unfired == 0))
       refuse(output.unfiredWhere, "default", "nan: a lever that no rule sets is neutral",
              numberText(output.unfired));
@@ -183,19 +178,21 @@ class Translation {
       const auto& output = system_.outputs[conclusion.output];
       const fuzzy_system::Term& term = output.terms[conclusion.term];
       const Lever lever = *leverOfOutput(output.name);
-      checkValue(term, rowOf(lever));
+      checkValue(conclusion, rowOf(lever));
       made.settings.push_back({lever, term.numbers[0]});
     }
     policy_.rules.push_back(std::move(made));
   }
 
-  /// Refuses a value beyond the lever's range once, however many rules set it.
-  void checkValue(const fuzzy_system::Term& term, const LeverRow& row) {
+  /// Refuses values beyond the lever's range once for each output, since one mapping mends them all.
+  void checkValue(const fuzzy_system::Conclusion& conclusion, const LeverRow& row) {
+    const fuzzy_system::Term& term = system_.outputs[conclusion.output].terms[conclusion.term];
     const double value = term.numbers[0];
-    if ((value >= row.hard.low && value <= row.hard.high) || !beyond_.insert(&term).second) return;
+    if ((value >= row.hard.low && value <= row.hard.high) || !beyond_.insert(conclusion.output).second)
+      return;
     refuse(term.where, "term " + term.name.substr(0, 40),
            std::string(row.key) + " from " + numberText(row.hard.low) + " to " + numberText(row.hard.high) +
-               ", which --map \"OUTPUT=" + std::string(row.key) + "*SCALE+OFFSET\" can make of it",
+               ", or --map \"OUTPUT=" + std::string(row.key) + "*SCALE+OFFSET\"",
            numberText(value));
   }
 
@@ -212,10 +209,10 @@ class Translation {
     return where_;
   }
 
-  const System& system_;
+  const System system_;
   const std::string& where_;
   Policy policy_;
-  std::set<const fuzzy_system::Term*> beyond_;
+  std::set<std::size_t> beyond_;  ///< outputs
   std::vector<std::string> termPlaces_;
   Findings findings_;
 };
@@ -240,15 +237,19 @@ Result<std::string> policyFileText(const Policy& policy, const std::string& name
   return findings;
 }
 
-Result<Policy> readPolicyFile(std::string_view text, const std::string& where, RuleFormat format) {
+Result<Policy> readPolicyFile(std::string_view text, const std::string& where, RuleFormat format,
+                              const RuleFileOptions& options) {
   const auto read = fuzzy_system::readSystem(text, where, format);
   if (!read) return read.findings();
+  const auto keys = fuzzy_system::keysOf(*read, options.mapping, where);
+  if (!keys) return keys.findings();
   const auto system = fuzzy_system::orderZeroOf(*read, where);
   if (!system) return system.findings();
-  auto policy = Translation(*system, where).run();
+  auto policy = Translation(fuzzy_system::mappedBy(*keys, *system), where).run();
   if (!policy) return policy;
   Findings notes = read.findings();
-  notes.insert(notes.end(), system.findings().begin(), system.findings().end());
+  for (const Findings* more : {&keys.findings(), &system.findings()})
+    notes.insert(notes.end(), more->begin(), more->end());
   return {std::move(*policy), std::move(notes)};
 }
 
