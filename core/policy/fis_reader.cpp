@@ -59,6 +59,7 @@ class Reader {
   Result<System> read() {
     while (const auto line = lines_.next()) readLine(*line);
     // A cut file lacks many things. The first is said, and nothing that follows from another fault.
+    checkMethods();
     if (lines_.empty()) checkWhatIsThere();
     nameAll();
     // Rules are read last, since variables may follow them.
@@ -159,7 +160,8 @@ class Reader {
     if (lower == "name") system_.name = value;
     if (lower == "type") {
       hasType_ = true;
-      if (word != "sugeno") lines_.refuse(key, "'sugeno'", value);
+      if (word == "mamdani") system_.mamdani.emplace();
+      if (word != "sugeno" && word != "mamdani") lines_.refuse(key, "'sugeno' or 'mamdani'", value);
     }
     if (lower == "andmethod") {
       const auto norm = known(kFisConjunctions);
@@ -171,8 +173,9 @@ class Reader {
       const bool strange = norm == std::end(kFisDisjunctions);
       system_.disjunction = {strange ? word : std::string(norm->fuzzylite), lines_.place()};
     }
-    if (lower == "defuzzmethod" && word != "wtaver")
-      lines_.refuse(key, "'wtaver', the weighted average", value);
+    if (lower == "impmethod") implication_ = {word, lines_.place()};
+    if (lower == "aggmethod") aggregation_ = {word, lines_.place()};
+    if (lower == "defuzzmethod") defuzzifier_ = {word, lines_.place()};
     if (lower == "numinputs") count(inputCount_);
     if (lower == "numoutputs") count(outputCount_);
     if (lower == "numrules") count(ruleCount_);
@@ -217,9 +220,28 @@ class Reader {
 
   void checkWhatIsThere() {
     if (!hasRules_) return lines_.refuse("Rules", "[Rules]; the file may be cut", "the end of the file");
-    if (!hasType_) lines_.refuse("Type", "'sugeno'", "none");
+    if (!hasType_) lines_.refuse("Type", "'sugeno' or 'mamdani'", "none");
     if (system_.inputs.empty()) lines_.refuse("Input1", "an input", "none");
     if (system_.outputs.empty()) lines_.refuse("Output1", "an output", "none");
+  }
+
+  /// The methods have a meaning only once the type is known, which may follow them.
+  void checkMethods() {
+    const auto take = [this](const Setting& method, const char* key, std::string expected,
+                             std::string& into) {
+      if (method.value.empty()) return;
+      if (expected.find("'" + method.value + "'") == std::string::npos)
+        lines_.refuseAt(method.where, key, std::move(expected), method.value);
+      into = method.value;
+    };
+    if (!hasType_) return;
+    std::string average;
+    if (!system_.mamdani)
+      return take(defuzzifier_, "DefuzzMethod", "'wtaver', the weighted average", average);
+    take(implication_, "ImpMethod", "'min' or 'prod'", system_.mamdani->implication);
+    take(aggregation_, "AggMethod", "'max', 'sum' or 'probor'", system_.mamdani->aggregation);
+    take(defuzzifier_, "DefuzzMethod", "'centroid', 'bisector', 'mom', 'lom' or 'som'",
+         system_.mamdani->defuzzifier);
   }
 
   void checkCounts() {
@@ -307,6 +329,7 @@ class Reader {
   bool hasType_ = false, hasRules_ = false;
   std::size_t terms_ = 0;
   Section section_ = Section::none;
+  Setting implication_, aggregation_, defuzzifier_;
   Count inputCount_, outputCount_, ruleCount_;
   std::vector<TermCount> mfCounts_;
   std::string reason_;            ///< of the next rule

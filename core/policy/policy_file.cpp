@@ -243,7 +243,7 @@ Result<Policy> readPolicyFile(std::string_view text, const std::string& where, R
   if (!read) return read.findings();
   const auto keys = fuzzy_system::keysOf(*read, options.mapping, where);
   if (!keys) return keys.findings();
-  const auto system = fuzzy_system::orderZeroOf(*read, where);
+  const auto system = fuzzy_system::orderZeroOf(*read, where, options.acceptDifference);
   if (!system) return system.findings();
   auto policy = Translation(fuzzy_system::mappedBy(*keys, *system), where).run();
   if (!policy) return policy;
