@@ -124,13 +124,13 @@ TEST(FisFile, makesWordsOfNamesAndSaysWhich) {
                                              {"'fast'", "'then'"},
                                              {"'level'", "'\xc3\xa9lev\xc3\xa9'"},
                                              {"'steep'", "'3rd, [deg]: x'"},
-                                             {"'fine'", "'a-1'"},
+                                             {"'fine'", "'a%1'"},
                                              {"'middle'", "'a_1'"}}),
                                 "f.fis:14: name: found 'very-slow', read as very_slow\n"
                                 "f.fis:15: name: found 'then', read as then_\n"
                                 "f.fis:20: name: found '\xc3\xa9lev\xc3\xa9', read as _lev_\n"
                                 "f.fis:21: name: found '3rd, [deg]: x', read as _3rd___deg___x\n"
-                                "f.fis:26: name: found 'a-1', read as a_1_2");
+                                "f.fis:26: name: found 'a%1', read as a_1_2");
   EXPECT_EQ(named.rules[0].condition, "speed is very_slow and roll is _lev_");
   EXPECT_EQ(surfaceOf(named), surfaceOf(readGood(kDescent)));
 }

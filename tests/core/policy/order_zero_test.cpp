@@ -116,6 +116,31 @@ TEST(OrderZero, infersByEachOfMamdanisMethodsAsFuzzyliteDoes) {
   }
 }
 
+TEST(OrderZero, measuresRulesWithOrNotAndHedgesAsFuzzyliteDoes) {
+  if (!test::fuzzylitePresent()) GTEST_SKIP() << "needs the fuzzylite program";
+  for (const FisKind kind : {FisKind::mamdani, FisKind::planes}) {
+    std::mt19937_64 random(9);
+    std::string fis = test::randomFis(kind, 2, random);
+    const auto put = [&fis](const std::string& from, std::size_t length, const std::string& to) {
+      ASSERT_NE(fis.find(from), std::string::npos) << from;
+      fis.replace(fis.find(from) + from.size() - length, length, to);
+    };
+    put("OrMethod='", 0, kind == FisKind::planes ? "probor' %" : "max' %");
+    put("\n1 1, ", 5, "-1 1.2, ");
+    put("\n2 2, ", 5, "2.05 -2.3, ");
+    for (const char* rule : {"\n-1 1.2, ", "\n3 2, ", "\n2 1, "}) {
+      const std::size_t end = fis.find('\n', fis.find(rule) + 1);
+      fis[end - 1] = '2';
+    }
+    const auto policy = readMatlab(fis, "f.fis", madeOptions(2, true));
+    ASSERT_TRUE(policy) << toString(policy.findings()) << fis;
+    fis.erase(fis.find(" %"), fis.find('\n', fis.find(" %")) - fis.find(" %"));  // fuzzylite reads no comment there
+    const Stated stated = statedBy(policy.findings()), measured = differenceFromTheFile(*policy, fis, 2);
+    EXPECT_NEAR(stated.most, measured.most, 0.02) << fis;
+    EXPECT_NEAR(stated.mean, measured.mean, 0.005) << fis;
+  }
+}
+
 /// One input from 0 to 10 and two rules.
 std::string twoRules(const std::string& type, const std::string& first, const std::string& second) {
   return "[System]\nType='" + type + "'\nAndMethod='prod'\n[Input1]\nName='In1 (x)'\nRange=[0 10]\n" +
