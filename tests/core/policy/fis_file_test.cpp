@@ -131,6 +131,7 @@ TEST(FisFile, makesWordsOfNamesAndSaysWhich) {
                                 "f.fis:20: name: found '\xc3\xa9lev\xc3\xa9', read as _lev_\n"
                                 "f.fis:21: name: found '3rd, [deg]: x', read as _3rd___deg___x\n"
                                 "f.fis:26: name: found 'a%1', read as a_1_2");
+  ASSERT_EQ(named.rules.size(), 3u);
   EXPECT_EQ(named.rules[0].condition, "speed is very_slow and roll is _lev_");
   EXPECT_EQ(surfaceOf(named), surfaceOf(readGood(kDescent)));
 }
