@@ -15,8 +15,9 @@ namespace trimtab::cli {
 namespace {
 
 struct FuzzyOptions {
-  std::string preset = "default", file, output, format;
+  std::string preset = "default", file, output, format, map;
   std::vector<std::string> settings;
+  bool acceptDifference = false;
 };
 
 Result<std::string> policyText(const TuningParameters& parameters, const std::string& name,
@@ -28,14 +29,17 @@ Result<std::string> policyText(const TuningParameters& parameters, const std::st
   return policyFileText(*policy, name, format);
 }
 
-Result<TuningParameters> readPolicy(std::string_view text, const std::string& where, RuleFormat format,
+Result<TuningParameters> readPolicy(std::string_view text, const FuzzyOptions& options, RuleFormat format,
                                     const TuningParameters& onto) {
-  const auto policy = readPolicyFile(text, where, format);
+  auto mapping = readRuleMapping(options.map, "--map");
+  if (!mapping) return mapping.findings();
+  const auto policy =
+      readPolicyFile(text, options.file, format, {std::move(*mapping), options.acceptDifference});
   if (!policy) return policy.findings();
   TuningParameters parameters = onto;
   parameters.policy = policyLines(*policy);
   parameters.policy.enabled = true;
-  return parameters;
+  return {std::move(parameters), policy.findings()};
 }
 /// Returns the format of --format, else of the file's ending.
 std::optional<RuleFormat> formatOf(const FuzzyOptions& options, const std::string& file) {
@@ -65,7 +69,7 @@ int importPolicy(const FuzzyOptions& options) {
   report(base.findings());
   report(text.findings());
   if (!base || !text) return kRefused;
-  const auto read = readPolicy(*text, options.file, *format, base->parameters);
+  const auto read = readPolicy(*text, options, *format, base->parameters);
   report(read.findings());
   if (!read) return kRefused;
   Preset preset;
@@ -109,6 +113,15 @@ void addFuzzy(CLI::App& preset, int& exitCode) {
   importing->add_option("--base", options->preset, "Preset file or the name of a shipped preset")
       ->default_str("default");
   importing->add_option("-o,--output", options->output, "Preset to write; - for standard output")->required();
+  importing->add_option(
+      "--map", options->map,
+      "Which signal each input is and which lever each output, where their names do not say "
+      "it: \"Speed=speed*0.514,Out=lod_scale\". VARIABLE=KEY*SCALE+OFFSET converts units; in "
+      "names, _ stands for a comma");
+  importing->add_flag(
+      "--accept-difference", options->acceptDifference,
+      "Import a file of planes or of Mamdani's kind even where the policy differs from it by more "
+      "than 5 % of an output's range");
   formatOption(importing);
   importing->callback([&exitCode, options] { exitCode = importPolicy(*options); });
 }

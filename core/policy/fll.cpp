@@ -27,6 +27,7 @@ const std::vector<Property>& properties() {
       {"OutputVariable", "lock-range", {"false"}},
       {"OutputVariable", "lock-previous", {"false"}},
       {"OutputVariable", "aggregation", {}},
+      {"OutputVariable", "accumulation", {}},  // in version 5
       {"OutputVariable",
        "defuzzifier",
        {"WeightedAverage TakagiSugeno", "WeightedAverage Automatic", "WeightedAverage"}},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "fuzzy_names.h"
 #include "system_text.h"
 #include "trimtab/units/number.h"
 #include "words.h"
@@ -11,8 +12,9 @@
 namespace trimtab {
 
 std::optional<RuleFormat> ruleFormatOf(const std::filesystem::path& file) {
-  if (file.extension() == ".fll") return RuleFormat::fuzzylite;
-  if (file.extension() == ".fis") return RuleFormat::matlab;
+  const std::string ending = fuzzy_system::lowered(file.extension().string());
+  if (ending == ".fll") return RuleFormat::fuzzylite;
+  if (ending == ".fis") return RuleFormat::matlab;
   return std::nullopt;
 }
 
@@ -21,7 +23,7 @@ std::optional<RuleFormat> ruleFormatOf(const std::filesystem::path& file) {
 namespace trimtab::fuzzy_system {
 namespace {
 
-constexpr std::size_t kLongestExpected = 400, kLongestLine = 32768;
+constexpr std::size_t kLongestExpected = 400, kLongestFound = 120, kLongestLine = 32768;
 
 /// Returns a number so near that a step between two points is meant, but no number so small that other
 /// programs refuse it.
@@ -88,7 +90,13 @@ std::optional<std::string_view> Lines::next() {
 void Lines::refuseAt(std::string place, std::string_view key, std::string expected, std::string_view found) {
   if (expected.size() > kLongestExpected) expected.replace(kLongestExpected, std::string::npos, " ...");
   findings_.add({Severity::error, std::move(place), std::string(key.substr(0, 60)), std::move(expected),
-                 found.empty() ? "nothing" : std::string(found.substr(0, 80))});
+                 found.empty() ? "nothing" : std::string(found.substr(0, kLongestFound))});
+}
+
+Findings Lines::findings() const {
+  Findings all = findings_.all(where_);
+  if (!empty()) std::erase_if(all, [](const Finding& f) { return f.severity == Severity::note; });
+  return all;
 }
 
 Result<std::string> systemText(const System& system, RuleFormat format) {

@@ -1,10 +1,13 @@
 #include "trimtab/policy/policy_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <set>
 
 #include "condition.h"
+#include "fuzzy_shapes.h"
+#include "mapped_system.h"
+#include "order_zero.h"
 #include "trimtab/policy/compiled_policy.h"
 #include "trimtab/units/finding_list.h"
 #include "trimtab/units/number.h"
@@ -13,18 +16,9 @@
 namespace trimtab {
 namespace {
 
+using fuzzy_system::kFormerOutput;
+using fuzzy_system::leverOfOutput;
 using fuzzy_system::System;
-
-/// The shapes as fuzzylite spells them, in the enumeration's order.
-constexpr std::array<std::string_view, kTermShapes.size()> kShapes{
-    "Discrete", "Triangle", "Trapezoid", "Ramp", "Gaussian", "Bell", "Sigmoid"};
-
-/// The output of rule files that were written for the former rule base of the culling scheme: the total,
-/// which the lever occlusion sets now, and 0 where no rule fired.
-constexpr std::string_view kFormerOutput = "total";
-std::optional<Lever> leverOfOutput(std::string_view name) {
-  return name == kFormerOutput ? Lever::occlusion : leverNamed(name);
-}
 
 struct Norms {
   std::string_view conjunction, disjunction;
@@ -40,7 +34,7 @@ void addInputs(const Policy& policy, System& system) {
     for (const PolicyTerm& term : policy.terms) {
       if (term.signal != row.signal) continue;
       input.terms.push_back(
-          {term.name, std::string(kShapes[static_cast<std::size_t>(term.shape)]), term.numbers, ""});
+          {term.name, std::string(fuzzy_system::systemNameOf(term.shape)), term.numbers, ""});
       if (term.shape == TermShape::points) fuzzy_system::moveStepsApart(input.terms.back().numbers);
     }
     const bool named = std::any_of(policy.rules.begin(), policy.rules.end(), [&row](const PolicyRule& rule) {
@@ -93,7 +87,8 @@ fuzzy_system::Rule ruleOf(const PolicyRule& rule, const System& system) {
 
 class Translation {
  public:
-  Translation(const System& system, const std::string& where) : system_(system), where_(where) {}
+  /// Takes a system whose variables are named by keys.
+  Translation(System system, const std::string& where) : system_(std::move(system)), where_(where) {}
 
   Result<Policy> run() {
     for (const fuzzy_system::Variable& input : system_.inputs) addTerms(input);
@@ -118,20 +113,18 @@ class Translation {
 
   void addTerms(const fuzzy_system::Variable& input) {
     const auto signal = signalNamed(input.name);
-    if (!signal) return refuse(input.where, "input", "the key of a signal", input.name);
     const Range range = rowOf(*signal).range;
     if (input.lockRange && (input.range.low != range.low || input.range.high != range.high))
       refuse(input.where, "input " + input.name,
              "the range " + numberText(range.low) + " " + numberText(range.high) + ", or lock-range: false",
              numberText(input.range.low) + " " + numberText(input.range.high));
     for (const fuzzy_system::Term& term : input.terms) {
-      const auto shape = std::find(kShapes.begin(), kShapes.end(), term.shape);
-      if (shape == kShapes.end()) {
+      const auto shape = fuzzy_system::policyShapeOf(term);
+      if (!shape) {
         refuse(term.where, "term " + term.name.substr(0, 40), "a shape that a policy has", term.shape);
         continue;
       }
-      policy_.terms.push_back(
-          {*signal, term.name, static_cast<TermShape>(shape - kShapes.begin()), term.numbers});
+      policy_.terms.push_back({*signal, term.name, *shape, term.numbers});
       if (policy_.terms.back().shape == TermShape::points)
         fuzzy_system::moveStepsTogether(policy_.terms.back().numbers);
       termPlaces_.push_back(term.where);
@@ -139,7 +132,6 @@ class Translation {
   }
 
   void checkOutput(const fuzzy_system::Variable& output) {
-    if (!leverOfOutput(output.name)) refuse(output.where, "output", "the key of a lever", output.name);
     if (!std::isnan(output.unfired) && !(output.name == kFormerOutput && output.unfired == 0))
       refuse(output.unfiredWhere, "default", "nan: a lever that no rule sets is neutral",
              numberText(output.unfired));
@@ -149,33 +141,59 @@ class Translation {
                term.shape + " of " + std::to_string(term.numbers.size()) + " numbers");
   }
 
+  /// Takes the norms of the words that the rules say, since files name both of them in any case.
   void setNorm() {
+    const auto said = [this](std::string_view word) {
+      return std::any_of(system_.rules.begin(), system_.rules.end(), [&](const fuzzy_system::Rule& rule) {
+        const auto words = policyWords(rule.condition);
+        return std::find(words.begin(), words.end(), word) != words.end();
+      });
+    };
     const auto& both = system_.conjunction;
     const auto& either = system_.disjunction;
+    const bool andSaid = said("and"), orSaid = said("or");
     const auto isNone = [](const fuzzy_system::Setting& norm) {
       return norm.value.empty() || norm.value == "none";
     };
-    policy_.norm = both.value == kProduct.conjunction || either.value == kProduct.disjunction
+    const bool byOr = !andSaid && (orSaid || isNone(both));
+    policy_.norm = (byOr ? either.value == kProduct.disjunction : both.value == kProduct.conjunction)
                        ? PolicyNorm::product
                        : PolicyNorm::minimum;
     const Norms norms = policy_.norm == PolicyNorm::product ? kProduct : kMinimum;
     const auto check = [&](const fuzzy_system::Setting& norm, const char* key, std::string_view wanted) {
-      if (!isNone(norm) && norm.value != wanted)
+      if (norm.value != wanted)
         refuse(norm.where, key,
                "Minimum with Maximum, or AlgebraicProduct with AlgebraicSum (min with max, prod with probor)",
                norm.value);
     };
-    check(both, "conjunction", norms.conjunction);
-    check(either, "disjunction", norms.disjunction);
+    const bool strange =
+        !isNone(both) && both.value != kMinimum.conjunction && both.value != kProduct.conjunction;
+    if (andSaid || strange) check(both, "conjunction", norms.conjunction);
+    if (orSaid) check(either, "disjunction", norms.disjunction);
   }
 
   void addRule(const fuzzy_system::Rule& rule) {
     PolicyRule made{rule.condition, {}, rule.weight, rule.enabled, rule.reason};
     for (const fuzzy_system::Conclusion& conclusion : rule.conclusions) {
       const auto& output = system_.outputs[conclusion.output];
-      made.settings.push_back({*leverOfOutput(output.name), output.terms[conclusion.term].numbers[0]});
+      const fuzzy_system::Term& term = output.terms[conclusion.term];
+      const Lever lever = *leverOfOutput(output.name);
+      checkValue(conclusion, rowOf(lever));
+      made.settings.push_back({lever, term.numbers[0]});
     }
     policy_.rules.push_back(std::move(made));
+  }
+
+  /// Refuses values beyond the lever's range once for each output, since one mapping mends them all.
+  void checkValue(const fuzzy_system::Conclusion& conclusion, const LeverRow& row) {
+    const fuzzy_system::Term& term = system_.outputs[conclusion.output].terms[conclusion.term];
+    const double value = term.numbers[0];
+    if ((value >= row.hard.low && value <= row.hard.high) || !beyond_.insert(conclusion.output).second)
+      return;
+    refuse(term.where, "term " + term.name.substr(0, 40),
+           std::string(row.key) + " from " + numberText(row.hard.low) + " to " + numberText(row.hard.high) +
+               ", or --map \"OUTPUT=" + std::string(row.key) + "*SCALE+OFFSET\"",
+           numberText(value));
   }
 
   /// Returns the line of what compile() names "terms.SIGNAL.NAME" or "rules.N".
@@ -191,9 +209,10 @@ class Translation {
     return where_;
   }
 
-  const System& system_;
+  const System system_;
   const std::string& where_;
   Policy policy_;
+  std::set<std::size_t> beyond_;  ///< outputs
   std::vector<std::string> termPlaces_;
   Findings findings_;
 };
@@ -218,10 +237,20 @@ Result<std::string> policyFileText(const Policy& policy, const std::string& name
   return findings;
 }
 
-Result<Policy> readPolicyFile(std::string_view text, const std::string& where, RuleFormat format) {
-  const auto system = fuzzy_system::readSystem(text, where, format);
+Result<Policy> readPolicyFile(std::string_view text, const std::string& where, RuleFormat format,
+                              const RuleFileOptions& options) {
+  const auto read = fuzzy_system::readSystem(text, where, format);
+  if (!read) return read.findings();
+  const auto keys = fuzzy_system::keysOf(*read, options.mapping, where);
+  if (!keys) return keys.findings();
+  const auto system = fuzzy_system::orderZeroOf(*read, where, options.acceptDifference);
   if (!system) return system.findings();
-  return Translation(*system, where).run();
+  auto policy = Translation(fuzzy_system::mappedBy(*keys, *system), where).run();
+  if (!policy) return policy;
+  Findings notes = read.findings();
+  for (const Findings* more : {&keys.findings(), &system.findings()})
+    notes.insert(notes.end(), more->begin(), more->end());
+  return {std::move(*policy), std::move(notes)};
 }
 
 }  // namespace trimtab

@@ -34,8 +34,14 @@ class Lines {
     refuseAt(place(), key, std::move(expected), found);
   }
   void refuseAt(std::string place, std::string_view key, std::string expected, std::string_view found);
-  bool empty() const { return findings_.empty(); }
-  Findings findings() const { return findings_.all(where_); }
+  /// Says how something at a place was read that could not be read as it stands.
+  void noteAt(std::string place, std::string_view key, std::string found) {
+    findings_.add({Severity::note, std::move(place), std::string(key), "", std::move(found)});
+  }
+  /// Reports whether nothing was refused.
+  bool empty() const { return !findings_.hasError(); }
+  /// Returns why something was refused; notes only if nothing was.
+  Findings findings() const;
 
  private:
   std::string_view rest_;

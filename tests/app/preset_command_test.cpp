@@ -90,8 +90,40 @@ TEST(PresetCommand, givesPoliciesToFuzzyToolsAndTakesThemBack) {
   EXPECT_EQ(mixed.exitCode, 1);
   EXPECT_THAT(mixed.err, HasSubstr("error: default: rules.1: expected each input once, found speed twice"));
   test::writeFile(dir / "bad.fis", "[System]\nType='mamdani'\n");
-  EXPECT_THAT(preset("policy import " + (dir / "bad.fis").string() + " -o -").err,
-              HasSubstr("bad.fis:2: Type: expected 'sugeno', found mamdani"));
+  EXPECT_THAT(
+      preset("policy import " + (dir / "bad.fis").string() + " -o -").err,
+      HasSubstr("bad.fis:2: Rules: expected [Rules]; the file may be cut, found the end of the file"));
+}
+
+TEST(PresetCommand, importsRulesOfOtherPeopleByAMapping) {
+  const test::ScratchDir dir;
+  const std::string file = (dir / "fan.fis").string(), made = (dir / "fan.json").string();
+  test::writeFile(file,
+                  "[System]\nType='sugeno'\nAndMethod='prod'\n[Input1]\nName='v (m/s)'\nRange=[0 100]\n"
+                  "MF1='slow':'linzmf',[20 80]\n[Output1]\nName='Out'\nRange=[0 60]\n"
+                  "MF1='some':'linear',[0.6 12]\nMF2='much':'constant',[50]\n"
+                  "[Rules]\n1, 1 (1) : 1\n-1, 2 (1) : 1\n");
+  const std::string import = "policy import " + file + " -o " + made;
+  const Ran unmapped = preset(import);
+  EXPECT_EQ(unmapped.exitCode, 1);
+  EXPECT_THAT(unmapped.err, HasSubstr("error: " + file +
+                                      ":4: input: expected the key of a signal, or --map "
+                                      "\"v__m_s_=KEY*SCALE+OFFSET\" with one of altitude (ft)"));
+  const std::string mapped = import + " --map 'v (m/s)=speed*0.514,Out=lod_scale*10'";
+  const Ran far = preset(mapped);
+  EXPECT_EQ(far.exitCode, 1);
+  EXPECT_THAT(far.err, HasSubstr(":8: difference of Out: expected at most 5 % of its range"));
+  const Ran accepted = preset(mapped + " --accept-difference");
+  EXPECT_EQ(accepted.exitCode, 0) << accepted.err;
+  EXPECT_THAT(accepted.err, HasSubstr("note: " + file + ":8: difference of Out: found at most "));
+  const auto loaded = loadPreset(made);
+  ASSERT_TRUE(loaded) << toString(loaded.findings());
+  EXPECT_TRUE(loaded->parameters.policy.enabled);
+  ASSERT_EQ(loaded->parameters.policy.rules.line.size(), 2u);
+  EXPECT_EQ(loaded->parameters.policy.rules.line[1], "if speed is not slow then lod_scale = 5");
+  const Ran wrong = preset(import + " --map 'Out=lod_scale*0'");
+  EXPECT_THAT(wrong.err,
+              HasSubstr("error: --map: expected VARIABLE=KEY*SCALE+OFFSET with a scale that is not 0"));
 }
 
 TEST(PresetCommand, refusesRuleFilesWithLineExpectedAndFound) {

@@ -28,7 +28,7 @@ namespace trimtab::fuzzy_system {
 
 struct Term {
   std::string name;
-  std::string shape;            ///< as fuzzylite spells it: Discrete, Ramp, ..., Constant
+  std::string shape;  ///< as fuzzylite spells it: Discrete, ..., Constant, Linear; else as MATLAB does
   std::vector<double> numbers;  ///< in fuzzylite's order
   std::string where;
 };
@@ -62,11 +62,17 @@ struct Rule {
   std::string where;
 };
 
+/// How a system of Mamdani's kind infers, in MATLAB's words. Its outputs have terms with shapes.
+struct MamdaniMethods {
+  std::string implication = "min", aggregation = "max", defuzzifier = "centroid";
+};
+
 struct System {
   std::string name;
   std::vector<Variable> inputs, outputs;
   Setting conjunction, disjunction;  ///< as fuzzylite spells norms; "none" if there is none
   std::vector<Rule> rules;
+  std::optional<MamdaniMethods> mamdani;  ///< Takagi and Sugeno's kind has none
 };
 
 /// Returns the text of a file. MATLAB's rules are numbers: one term of each input, joined by `and` alone or

@@ -2,9 +2,11 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "trimtab/policy/fuzzy_system.h"
 #include "trimtab/policy/policy.h"
+#include "trimtab/policy/rule_mapping.h"
 
 /// Exchanges policies with fuzzy-logic tools. Each signal that has terms or stands in a rule is an input.
 /// Each lever that a rule sets is an output: a weighted average of constants, which CompiledPolicy::decide
@@ -25,14 +27,26 @@ namespace trimtab {
 /// neither a letter nor a digit of ASCII; an empty one becomes "policy".
 Result<std::string> policyFileText(const Policy& policy, const std::string& name, RuleFormat format);
 
-/// Reads such a text, also if fuzzylite has read and written it since. The policy decides as the written one
-/// did, but its terms stand in the order of the signals, and a negated group comes back as negated terms.
+/// Says how a file is read whose variables are no signals and levers, or whose outputs are no constants.
+struct RuleFileOptions {
+  std::vector<RuleVariable> mapping;
+  bool acceptDifference = false;  ///< reads a file however far the policy is from it
+};
+
+/// Reads such a text, also if fuzzylite has read and written it since, and MATLAB's files as people have
+/// them. A file that policyFileText() wrote decides as it did, but its terms stand in the order of the
+/// signals, and a negated group comes back as negated terms.
 ///
-/// Everything that a policy cannot say is refused with file, line, expected and found, one finding each:
-/// unknown signals and levers, other shapes, outputs that are no constants or have a default, other norms and
-/// defuzzifiers, a file without rules. `where` is the file's name in the findings. The policy that it returns
-/// compiles.
-Result<Policy> readPolicyFile(std::string_view text, const std::string& where, RuleFormat format);
+/// What a policy can only come near to is read with a note that says how near: shapes that become points, and
+/// outputs that become constants (see resources/docs/policy.md). An output that differs by more than 5 % of
+/// its range somewhere on a grid is refused unless the options accept it.
+///
+/// Everything else that a policy cannot say is refused with file, line, expected and found, one finding each:
+/// unknown signals and levers, other shapes, outputs that have a default, other norms and defuzzifiers,
+/// counts that disagree with the text, a file without rules. `where` is the file's name in the findings. The
+/// policy that it returns compiles.
+Result<Policy> readPolicyFile(std::string_view text, const std::string& where, RuleFormat format,
+                              const RuleFileOptions& options = {});
 
 /// These are the same two functions for one language each.
 inline Result<std::string> toFuzzyLite(const Policy& policy, const std::string& name) {
@@ -44,8 +58,9 @@ inline Result<Policy> readFuzzyLite(std::string_view text, const std::string& wh
 inline Result<std::string> toMatlab(const Policy& policy, const std::string& name) {
   return policyFileText(policy, name, RuleFormat::matlab);
 }
-inline Result<Policy> readMatlab(std::string_view text, const std::string& where) {
-  return readPolicyFile(text, where, RuleFormat::matlab);
+inline Result<Policy> readMatlab(std::string_view text, const std::string& where,
+                                 const RuleFileOptions& options = {}) {
+  return readPolicyFile(text, where, RuleFormat::matlab, options);
 }
 
 }  // namespace trimtab
