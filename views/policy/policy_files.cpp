@@ -22,7 +22,8 @@ struct Language {
 };
 constexpr Language kLanguages[] = {
     {"fll", QT_TRANSLATE_NOOP("QObject", "FuzzyLite Language"), &toFuzzyLite, &readFuzzyLite},
-    {"fis", QT_TRANSLATE_NOOP("QObject", "MATLAB fuzzy inference system"), &toMatlab, &readMatlab},
+    {"fis", QT_TRANSLATE_NOOP("QObject", "MATLAB fuzzy inference system"), &toMatlab,
+     [](std::string_view text, const std::string& where) { return readMatlab(text, where); }},
 };
 
 const Language* languageOf(const QString& file) {
