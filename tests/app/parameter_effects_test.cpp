@@ -330,6 +330,7 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
        {{"motion.frames", "drawn"}, {"motion.left_fov_deg", "15"}},
        &ParameterEffects::listenAndDraw},
       {"static_lod.", {{"terrain.form", "static_trees"}}},
+      {"terrain.form", {{"terrain.form", "static_trees"}}},
       {"static_lod.", {{"terrain.form", "static_trees"}, {"static_lod.rule", "factor"}}},
       {"terrain.",
        {{"terrain.form", "patches"}, {"terrain.cache_mb", "16"}, {"lod.screen_space_error_px", "0.25"}},

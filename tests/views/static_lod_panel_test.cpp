@@ -132,11 +132,12 @@ TEST_F(StaticLodPanelTest, takesTheOverlayBackWithTheTrees) {
 TEST_F(StaticLodPanelTest, editsThePreset) {
   const auto boxes = panel_.findChildren<ChoiceBox*>();
   ASSERT_FALSE(boxes.isEmpty());
-  boxes.front()->setCurrentIndex(static_cast<int>(TerrainForm::static_trees));
-  EXPECT_EQ(draft_.active()->terrain.form, TerrainForm::static_trees);
+  const int before = boxes.front()->currentIndex();
+  boxes.front()->setCurrentIndex(static_cast<int>(ErrorMeasure::as_published));
+  EXPECT_EQ(draft_.active()->staticLod.error, ErrorMeasure::as_published);
   draft_.undoStack().undo();
-  EXPECT_EQ(draft_.active()->terrain.form, TerrainForm::tiles);
-  EXPECT_EQ(boxes.front()->currentIndex(), 0);
+  EXPECT_EQ(draft_.active()->staticLod.error, ErrorMeasure{before});
+  EXPECT_EQ(boxes.front()->currentIndex(), before);
 }
 
 }  // namespace
