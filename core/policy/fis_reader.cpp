@@ -58,7 +58,8 @@ class Reader {
 
   Result<System> read() {
     while (const auto line = lines_.next()) readLine(*line);
-    // A cut file lacks many things. The first is said, and nothing that follows from another fault.
+    // A file that was cut misses many things. Only the first fault is reported, and none that follows from
+    // it.
     checkMethods();
     if (lines_.empty()) checkWhatIsThere();
     nameAll();

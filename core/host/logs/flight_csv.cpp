@@ -19,7 +19,6 @@ namespace {
 
 /// Flights have 500 rows a second to one in ten minutes, and move at 10 to 1,500 m/s unless they rest.
 constexpr LogMotion kFlightMotion{0.002, 600, 10, 1500};
-constexpr double kLargestTime = 1e19;
 
 /// Counts rows, and remembers on which lines the first and the last of them are.
 struct RowCount {
@@ -254,10 +253,13 @@ void Parser::findAngleUnit() {
   constexpr double kAlongDeg = 30, kAstrayDeg = 45, kDegreesOfRadian = Radians{1}.in<Degrees>();
   Unit unit = Unit::none;
   if (members.front() == &Attitude::heading) {
-    const auto degrees = headingErrorDeg(flight_.states, 1),
-               radians = headingErrorDeg(flight_.states, kDegreesOfRadian);
-    if (degrees && *degrees<kAlongDeg&& * radians> kAstrayDeg) unit = Unit::degrees;
-    if (radians && *radians<kAlongDeg&& * degrees> kAstrayDeg) unit = Unit::radians;
+    const auto inDegrees = headingErrorDeg(flight_.states, 1),
+               inRadians = headingErrorDeg(flight_.states, kDegreesOfRadian);
+    if (inDegrees && inRadians) {
+      const double degrees = inDegrees.value(), radians = inRadians.value();
+      if (degrees < kAlongDeg && radians > kAstrayDeg) unit = Unit::degrees;
+      if (radians < kAlongDeg && degrees > kAstrayDeg) unit = Unit::radians;
+    }
   }
   if (unit != Unit::none)
     note("", std::string("angles name no unit; headings follow the track if they are ") +

@@ -20,7 +20,7 @@ namespace {
 /// Bad rows that findings name one by one; the rest are counted.
 constexpr std::size_t kNamedRows = 10;
 constexpr double kQuarterDeg = 90 + 1e-4;
-constexpr double kLargestDeg = 1e6, kLargestTime = 1e19;
+constexpr double kLargestDeg = 1e6;
 /// Trackers give 2,000 samples a second to one in two seconds. A head may rest, and turns at most so fast.
 constexpr LogMotion kHeadMotion{0.0005, 2, 0, 3000};
 

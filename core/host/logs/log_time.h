@@ -12,6 +12,8 @@
 namespace trimtab {
 
 inline constexpr double kDayS = 86400;
+/// A larger time in any unit is damage: dates in nanoseconds since 1970 stay below it.
+inline constexpr double kLargestTime = 1e19;
 
 /// Reads a clock: an ISO 8601 date with a time, in seconds since 1970, or hours, minutes and seconds with
 /// colons, in seconds since midnight. Returns nothing for any other text.
