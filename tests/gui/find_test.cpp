@@ -61,7 +61,11 @@ class WorkbenchFind : public Bench {
     EXPECT_TRUE(
         waitFor([&] { return palette_->isVisible() || QApplication::activeWindow() == window.get(); }));
   }
-  QString row(int column) { return palette_->list().currentItem()->text(column); }
+  /// Returns a cell of the row that Return would take; nothing if nothing is found.
+  QString row(int column) {
+    const QTreeWidgetItem* const item = palette_->list().currentItem();
+    return item != nullptr ? item->text(column) : QString();
+  }
 
   workbench::Palette* palette_ = nullptr;
 };

@@ -88,10 +88,9 @@ FrameController::FrameController(const Workplace& workplace, const TerrainContro
 }
 
 FrameController::~FrameController() {
-  if (!recalled_) return;
-  const Findings found =
-      rememberCostModel(at_.feed.session().hold().model(), machineName(at_.viewport.gl().renderer));
-  // There is no window any more that could show it.
+  // The viewport and the window are gone: neither can be asked or show anything.
+  if (machine_.empty()) return;
+  const Findings found = rememberCostModel(at_.feed.session().hold().model(), machine_);
   if (!found.empty())
     std::fprintf(stderr, "trimtab: what images cost is not remembered: %s\n", toString(found).c_str());
 }
@@ -177,10 +176,11 @@ void FrameController::onPainted() {
   else
     fps_ = kNan;
   CostModel& model = at_.feed.session().hold().model();
-  if (!std::exchange(recalled_, true))
-    if (const Findings found = recallCostModel(model, machineName(at_.viewport.gl().renderer));
-        !found.empty())
+  if (machine_.empty()) {
+    machine_ = machineName(at_.viewport.gl().renderer);
+    if (const Findings found = recallCostModel(model, machine_); !found.empty())
       at_.messages.add(tr("The costs of an image are learned anew"), found);
+  }
   lastCost_ = costOf(*result);
   if (!observer_.frozen()) at_.feed.session().finished(*result, link::now());
   if (const auto& why = model.whyAnew(); why && !std::exchange(saidAnew_, true))

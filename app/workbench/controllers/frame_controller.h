@@ -5,6 +5,7 @@
 #include <QObject>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "app/workbench/viewport/viewport.h"
 #include "observer_controller.h"
@@ -76,7 +77,7 @@ class FrameController : public QObject {
   std::optional<Box> outlined_;
   std::optional<FrameRequest> shown_;
   FrameCost lastCost_;
-  bool recalled_ = false;  ///< what an earlier start learned of this machine's costs has been looked for
+  std::string machine_;    ///< whose costs an earlier start may have learned; empty until they are recalled
   bool saidAnew_ = false;  ///< that these costs are learned anew
   LevelsFrame levels_;     ///< of the last image
   QElapsedTimer sinceImage_, sinceStart_;

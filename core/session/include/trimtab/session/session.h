@@ -5,54 +5,37 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
-#include "trimtab/decision/decide.h"
-#include "trimtab/frame/frame_request.h"
-#include "trimtab/frame/frame_result.h"
-#include "trimtab/frame/ground_heights.h"
-#include "trimtab/host/decoder.h"
-#include "trimtab/host/ground_velocity.h"
-#include "trimtab/host/host_clock_offset.h"
+#include "trimtab/hold/frame_hold.h"
 #include "trimtab/host/received_state.h"
-#include "trimtab/measure/trace.h"
-#include "trimtab/preset/table.h"
-#include "trimtab/session/air_drift.h"
+#include "trimtab/session/decider.h"
+#include "trimtab/session/frame_book.h"
 #include "trimtab/session/head_input.h"
+#include "trimtab/session/host_link.h"
 #include "trimtab/session/image_rate.h"
-#include "trimtab/session/latency.h"
 #include "trimtab/session/motion_ahead.h"
-#include "trimtab/session/precipitation_fade.h"
-#include "trimtab/session/signal_tracker.h"
+#include "trimtab/session/request_maker.h"
 
 /// Turns states into decisions and requests for images. An image generator and the workbench both use it, so
 /// that they decide alike. It has no window, no GL and no clock of its own: the caller passes `now`, in
 /// seconds of CLOCK_REALTIME.
 namespace trimtab {
 
-enum class LinkState {
-  never,  ///< no packet yet
-  live,
-  silent,  ///< no packet for host.silence_after_ms, so the eye stays where it is
-  jumped   ///< live, and within the last second the aircraft was moved farther than it can fly
-};
-std::string_view toText(LinkState state);
-
 class Session {
  public:
-  explicit Session(const ValidatedParameters& parameters);
+  explicit Session(const ValidatedParameters& parameters) : decider_(parameters) {}
 
   /// Sets the parameters for the next packet on. The current state is decided again for the image, without a
   /// trace row and without changing the memory (see `decision`), except that the policy's levers take their
   /// new targets at once.
   void setParameters(const ValidatedParameters& parameters);
-  const ValidatedParameters& parameters() const { return parameters_; }
+  const ValidatedParameters& parameters() const { return decider_.parameters(); }
   /// Sets what is asked for the height of the ground if the host does not send the height above it. May be
   /// null.
   void setGround(std::shared_ptr<const GroundHeights> ground);
   /// Sets what the arbiter of the budget counts the triangles of coming views in; see FrameHold::setIndex.
-  void setLoadIndex(std::shared_ptr<const LoadIndex> index) { budget_.hold.setIndex(std::move(index)); }
+  void setLoadIndex(std::shared_ptr<const LoadIndex> index) { hold_.setIndex(std::move(index)); }
 
   // States come from one of these. Each call decides each of its states exactly once, in order.
 
@@ -79,32 +62,32 @@ class Session {
 
   // The current state.
 
-  bool hasState() const { return current_.has_value(); }
+  bool hasState() const { return flight_.current.has_value(); }
   /// Returns what the last decision was made from; before the first decision, the newest state. Call it only
   /// if `hasState`.
-  const FrameInput& input() const { return decided_; }
+  const FrameInput& input() const { return decider_.input(); }
   /// Returns the decision for the last packet; after `setParameters`, the decision that it would get now.
   /// Head motion goes from the packet before it, because no time passes in an edit.
-  const FrameDecision& decision() const { return decision_; }
+  const FrameDecision& decision() const { return decider_.decision(); }
   /// Returns the memory that the next packet will be decided with.
-  const DecisionMemory& memory() const { return memory_; }
-  LinkState linkState(double now) const;
+  const DecisionMemory& memory() const { return decider_.memory(); }
+  LinkState linkState(double now) const { return flight_.link.state(now, parameters()->host.silenceAfter); }
   /// Returns the seconds since the last packet arrived; NaN before the first.
-  double packetAge(double now) const;
-  std::uint64_t packets() const { return packets_; }
-  std::uint64_t jumps() const { return jumps_; }
-  const Latency& latency() const { return latency_.latency(); }
+  double packetAge(double now) const { return flight_.link.packetAge(now); }
+  std::uint64_t packets() const { return flight_.packets; }
+  std::uint64_t jumps() const { return flight_.link.jumps(); }
+  const Latency& latency() const { return book_.latency(); }
 
   /// Returns what holds the budget: its cost model, and how its predictions come out.
-  FrameHold& hold() { return budget_.hold; }
-  const FrameHold& hold() const { return budget_.hold; }
+  FrameHold& hold() { return hold_; }
+  const FrameHold& hold() const { return hold_; }
 
   /// Derives the signals also while the preset has no policy, for whoever shows them. They cost a height from
   /// the terrain for each state; decisions and traces do not depend on it.
-  void watchSignals() { signals_.watched.emplace(); }
+  void watchSignals() { decider_.watchSignals(); }
   /// Returns the signals of the last decided state. They are unknown without a policy, unless somebody
   /// watches.
-  SignalValues signalValues() const { return signals_.watched.value_or(decided_.signalValues); }
+  SignalValues signalValues() const { return decider_.signalValues(); }
 
   // Images.
 
@@ -124,7 +107,7 @@ class Session {
                                       ViewFit fit = ViewFit::preset);
   /// Returns what the image that was requested last costs, with `decide` filled in. `finished` returns the
   /// same.
-  FrameCost costOf(const FrameResult& result) const;
+  FrameCost costOf(const FrameResult& result) const { return book_.costOf(result); }
   /// Call this when the requested image is finished. It completes trace rows, latencies and the cost that the
   /// next input holds, and returns that cost with `decide` filled in.
   FrameCost finished(const FrameResult& result, double now);
@@ -133,12 +116,12 @@ class Session {
   std::span<const std::uint32_t> nodesAhead(const FrameRequest& drawn);
   /// Tells for how many of these names there was no time (scene::BuiltAhead::left): the arbiter restores no
   /// level of detail before its meshes are there.
-  void builtAhead(std::size_t left) { budget_.hold.setMeshesLeft(left); }
+  void builtAhead(std::size_t left) { hold_.setMeshesLeft(left); }
   /// Returns how long building ahead may take after the last image: half of what it left of the budget,
   /// milliseconds, but at least a fiftieth of the budget, so that it also goes on while images are late.
   double aheadMs() const;
   /// Returns how many finished images took longer to make than measure.budget_ms.
-  std::uint64_t overBudget() const { return overBudget_; }
+  std::uint64_t overBudget() const { return book_.overBudget(); }
   /// Call this if no image will show what has arrived, as while a window is hidden. Rows and latencies then
   /// do not wait for one. It counts as an image where images are decided.
   void noPicture();
@@ -146,84 +129,40 @@ class Session {
   // Trace.
 
   /// Sets whether trace rows are made.
-  void keepRows(bool keep);
+  void keepRows(bool keep) { book_.keepRows(keep); }
   /// Moves the complete rows to the end of `rows`, in order. With `all`, for the end of a trace, also those
   /// that no image has shown yet.
-  void takeRows(std::vector<TraceRow>& rows, bool all = false);
+  void takeRows(std::vector<TraceRow>& rows, bool all = false) { book_.takeRows(rows, all); }
 
  private:
+  template <class Decide>
+  void timed(const Decide& decide);
   void decideNext(FrameInput input, double kernelTime);
-  void decideWith(DecisionMemory& memory);
   void arrive(const AircraftState& state, double kernelTime);
   bool decidesImages() const;
   void decideImage(double now);
-  FrameInput inputFor(const AircraftState& state) const;
-  void decideInput(DecisionMemory& memory);
-  void trackSignals(FrameInput& input, const WeatherDecision& weather);
+  void addRow(const DecisionMemory& before);
+  FrameInput inputFor(const AircraftState& state, bool live) const;
   void holdBudget(FrameRequest& request);
-  std::optional<Metres> heightOverTerrain(const AircraftState& state) const;
-  std::optional<Metres> groundBelow(const AircraftState& state) const;
-  std::optional<Metres> highestGround() const;
-  void follow(const AircraftState& state, double arrival);
-  void unlink();
-  SymbologyState symbols(const AircraftState& eye) const;
-  std::optional<Velocity> velocityOf(const AircraftState& state) const;
-  std::vector<std::uint16_t> darkAt(double time) const;
 
-  ValidatedParameters parameters_;
-  std::shared_ptr<const GroundHeights> ground_;
-
-  DecisionMemory memory_, lookMemory_;
-  MotionMemory motionBefore_;          ///< before the last decision
-  std::optional<FrameInput> current_;  ///< of the newest state
-  FrameInput decided_;                 ///< of the last decision
-  FrameDecision decision_;
-  ImageRate imageRate_;
-  std::optional<std::uint64_t> lastVertices_;  ///< of the last finished image
-  FrameCost lastCost_;
-  double decideMs_ = 0, requestedDecideMs_ = 0;  ///< spent since the last request, and on the image requested
-  std::uint64_t overBudget_ = 0;
-  bool looking_ = false;
-  bool replayed_ = false;
-
+  Decider decider_;
   HeadInput head_;
-  std::optional<double> blurPicturedAt_;  ///< when the first image of the last decision was requested
-  bool blurDrawn_ = false;
-  /// Holds what moves and falls, up to the last image requested.
-  struct Air {
-    AirDrift drift;
-    PrecipitationFade fade;
+  FrameBook book_;
+  FrameHold hold_;
+  /// Holds what a new host or flight begins without.
+  struct Flight {
+    HostLink link;
+    std::optional<FrameInput> current;  ///< of the newest state
+    std::uint64_t packets = 0;
+    RequestMaker maker;
+    ImageRate imageRate;
+    MotionAhead ahead;                         ///< up to the last image requested
+    std::optional<HoldDecision> replayedHold;  ///< of the row of a trace that the next image shows
+    bool replayed = false;
+    bool blurDrawn = false;  ///< in the last image requested
   };
-  Air air_;
-
-  struct Signals {
-    SignalTracker tracker;                ///< pushed only if the preset has a policy or somebody watches
-    std::optional<SignalValues> watched;  ///< if unset, nobody watches
-  };
-  Signals signals_;
-  /// Holds what keeps the budget.
-  struct Budget {
-    FrameHold hold;
-    MotionAhead ahead;                     ///< up to the last image requested
-    std::optional<HoldDecision> replayed;  ///< of the row of a trace that the next image shows
-  };
-  Budget budget_;
-  GroundVelocity groundVelocity_;
-  Extrapolator extrapolator_;
-  bool linked_ = false;  ///< states come from a live link, so the eye may be extrapolated
-  HostClockOffset hostClock_;
-  double lastArrival_ = 0, lastJump_ = 0;
-  std::uint64_t packets_ = 0, jumps_ = 0;
-  LatencyMeter latency_;
-
-  std::shared_ptr<const HostSymbols> hostSymbols_;  ///< of the live link; null for any other source
-  std::vector<std::uint16_t> drawnDark_;            ///< its dark symbols in the last image requested
-
-  bool dirty_ = false;
-  std::optional<AircraftState> drawnEye_;
-  bool keepRows_ = false;
-  std::vector<TraceRow> rows_;
-  std::size_t completeRows_ = 0, requestedRows_ = 0;
+  Flight flight_;
+  bool dirty_ = false;  ///< since the last image requested
 };
 
 }  // namespace trimtab
