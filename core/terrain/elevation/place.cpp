@@ -90,7 +90,7 @@ std::vector<ElevationFile::Place> ElevationFile::exact(std::uint32_t row, std::u
     const GdalErrors quiet;
     vertical_.toFile->Transform(static_cast<int>(count), x.data(), y.data(), z.data(), good.get());
     for (std::uint32_t i = 0; i < count; ++i)
-      places[i].lift = good[i] && std::isfinite(z[i]) ? -z[i] * vertical_.unit : std::nan("");
+      places[i].lift = good[i] && std::isfinite(z[i]) ? -z[i] * *vertical_.unit : std::nan("");
   }
   return places;
 }
