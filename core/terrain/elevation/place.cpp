@@ -72,6 +72,7 @@ std::vector<ElevationFile::Place> ElevationFile::exact(std::uint32_t row, std::u
                    snapped((latitude - own_.south) / own_.stepLatitude), 0};
   } else {
     fill();
+    const GdalErrors quiet;
     toFile_->Transform(static_cast<int>(count), x.data(), y.data(), nullptr, good.get());
     const double middle = raster_.transform[0] + raster_.transform[1] * static_cast<double>(across_) / 2 +
                           raster_.transform[2] * static_cast<double>(down_) / 2;
