@@ -18,6 +18,8 @@ void addDecide(CLI::App& app, int& exitCode);
 void addTerrain(CLI::App& app, int& exitCode);
 /// Adds the subcommand `export` to `terrain`.
 void addTerrainExport(CLI::App& terrain, int& exitCode);
+/// Adds the subcommand `height` to `terrain`.
+void addTerrainHeight(CLI::App& terrain, int& exitCode);
 void addFeed(CLI::App& app, int& exitCode);
 void addBench(CLI::App& app, int& exitCode);
 void addResults(CLI::App& app, int& exitCode);

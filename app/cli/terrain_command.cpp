@@ -7,6 +7,7 @@
 #include "progress.h"
 #include "terrain_info.h"
 #include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/elevation/height_unit.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/scenery/scenery.h"
 #include "trimtab/terrain/synthetic/country.h"
@@ -104,8 +105,8 @@ void addTerrain(CLI::App& app, int& exitCode) {
     bool keepLines = false, keepTexture = false;
     double postM = 0, memoryMb = terrain::BakeOptions{}.memory.value();
     std::optional<double> maxErrorM;
-    std::string part;
-    bool join = false;
+    std::string part, heightUnit;
+    bool join = false, ignoreChecksums = false;
   };
   auto bake = std::make_shared<BakeArguments>();
   CLI::App* makeBake = group->add_subcommand("bake", "Make a database of elevation or scenery");
@@ -116,7 +117,17 @@ void addTerrain(CLI::App& app, int& exitCode) {
           "folders, .stg, .btg and .btg.gz")
       ->required();
   makeBake->add_option("-o,--output", bake->output, "Folder of the database")->required();
-  makeBake->add_option("--imagery", bake->imagery, "Georeferenced image to drape");
+  makeBake
+      ->add_option(
+          "--height-unit", bake->heightUnit,
+          "Unit of heights in files that name none, or none that is known: " + terrain::unitsOfHeight())
+      ->check([](const std::string& name) {
+        return terrain::metresPerUnit(name) ? std::string()
+                                            : name + " is none of " + terrain::unitsOfHeight();
+      });
+  makeBake->add_flag("--ignore-checksums", bake->ignoreChecksums,
+                     "Read DTED whose profiles do not agree with their checksums, or have none");
+  makeBake->add_option("--imagery", bake->imagery, "Georeferenced image to drape, or a folder of them");
   makeBake
       ->add_option("--leaf-triangles", bake->leafTriangles,
                    "Most triangles a leaf of the static levels of detail holds (scenery)")
@@ -153,6 +164,8 @@ void addTerrain(CLI::App& app, int& exitCode) {
     options.sources.assign(bake->sources.begin(), bake->sources.end());
     options.output = bake->output;
     if (!bake->imagery.empty()) options.imagery = bake->imagery;
+    if (!bake->heightUnit.empty()) options.reading.heightUnit = terrain::metresPerUnit(bake->heightUnit);
+    options.reading.ignoreChecksums = bake->ignoreChecksums;
     options.trianglesPerNode = bake->leafTriangles;
     options.keepLines = bake->keepLines;
     options.keepTexture = bake->keepTexture;
@@ -209,6 +222,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
     if (damage.empty() && !info->json) std::cout << "every checksum holds\n";
   });
 
+  addTerrainHeight(*group, exitCode);
   addTerrainExport(*group, exitCode);
 }
 

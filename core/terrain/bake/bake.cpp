@@ -49,16 +49,6 @@ auto orFinding(const fs::path& where, const Work& work) -> decltype(work()) {
 /// Patches and ground are made at the same time where they may take so much, bytes.
 constexpr std::size_t kBesideBytes = std::size_t{512} << 20;
 
-/// Puts an image over the colours of materials: those stay where it has nothing.
-void drape(std::vector<std::uint8_t> image, std::vector<std::uint8_t>& under) {
-  if (under.empty()) {
-    under = std::move(image);
-    return;
-  }
-  for (std::size_t i = 0; i + 3 < image.size(); i += 4)
-    if (image[i + 3] != 0) std::copy_n(&image[i], 4, &under[i]);
-}
-
 /// Bakes from the options to one of three ends: a database, a part of the work, a database of parts.
 class Job {
  public:
@@ -182,7 +172,12 @@ class Job {
     ground.heights = file_.get();
     ground.geometry = geometry_.get();
     ground.memory = memory_ / 2;  // patches may be made beside it
-    if (options_.imagery) ground.images = {*options_.imagery};
+    if (options_.imagery) {
+      const auto images = imageryOver(*options_.imagery, heights_.posts);
+      keep(images.findings());
+      if (!images) return images.findings();
+      images_ = ground.images = *images;
+    }
     if (source_->tiles)
       ground.triangles =
           &materials_.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
@@ -301,7 +296,7 @@ class Job {
     if (!colours) return colours.findings();
     std::vector<std::uint8_t> image = std::move(colours).value();
     if (options_.imagery) {
-      auto read = readImagery(*options_.imagery, posts, part(0.85, 1));
+      auto read = readImagery(images_, posts, part(0.85, 1));
       if (!read) return read.findings();
       drape(std::move(read).value(), image);
     }
@@ -380,6 +375,9 @@ class Job {
     files_.push_back({kHeightsName, bytes, heights_.sum});
     const auto sums = fs::file_size(work_->database() / kHeightSumsName, error);
     files_.push_back({kHeightSumsName, sums, heights_.sum});
+    const auto sources = bakeSources(*work_, heights_.posts, source_->elevation->names());
+    if (!sources) return sources.findings();
+    if (*sources) files_.push_back(**sources);
     if (auto done = makeTiles(); !done) return done;
     // Last: these take scenery's tiles for themselves.
     if (auto done = makeTrees(); !done) return done;
@@ -432,6 +430,7 @@ class Job {
   std::unique_ptr<GroundBake> ground_;
   std::optional<std::pair<TerrainIndex, CellSlopes>> tileLevels_;  ///< once they are measured
   std::vector<FileEntry> files_;
+  std::vector<fs::path> images_;  ///< of the imagery, those over the terrain
   std::optional<std::uint32_t> trianglesPerNode_;
 };
 

@@ -21,7 +21,7 @@ std::map<std::string, GroundCover> GroundBake::covers() const {
     std::istringstream words(line);
     std::string word, name;
     GroundCover cover;
-    if (!(words >> word >> name >> cover.texels) || word != "ground") continue;
+    if (!(words >> word >> name >> cover.texels >> cover.coveredByAny) || word != "ground") continue;
     for (std::uint64_t covered; words >> covered;) cover.covered.push_back(covered);
     if (cover.covered.size() == sources_.images.size()) all[name] = std::move(cover);
   }
@@ -33,7 +33,8 @@ Result<Done> GroundBake::make(std::uint32_t part, std::uint32_t parts, const Pro
   if (PageFile::open(file) && covers().contains(file.filename().string())) return Done{};
   const auto made = buildGroundPart(sources_, part, parts, file, progress);
   if (!made) return made.findings();
-  std::string line = "ground " + file.filename().string() + ' ' + std::to_string(made->texels);
+  std::string line = "ground " + file.filename().string() + ' ' + std::to_string(made->texels) + ' ' +
+                     std::to_string(made->coveredByAny);
   for (const std::uint64_t covered : made->covered) line += ' ' + std::to_string(covered);
   return work_.note(line);
 }
@@ -55,7 +56,7 @@ std::uint32_t GroundBake::parts() const {
 Result<Done> GroundBake::join(std::uint32_t parts, const fs::path& file, const Progress& progress) const {
   const auto told = covers();
   std::vector<fs::path> shares;
-  GroundCover all{0, std::vector<std::uint64_t>(sources_.images.size())};
+  GroundCover all{0, 0, std::vector<std::uint64_t>(sources_.images.size())};
   for (std::uint32_t part = 0; part < parts; ++part) {
     shares.push_back(shareFile(part, parts));
     const auto cover = told.find(shares.back().filename().string());
@@ -63,6 +64,7 @@ Result<Done> GroundBake::join(std::uint32_t parts, const fs::path& file, const P
       return Finding{Severity::error, shares.back().string(), "ground",
                      "a line of the journal that tells of its end", "none: bake again"};
     all.texels = cover->second.texels;
+    all.coveredByAny += cover->second.coveredByAny;
     for (std::size_t i = 0; i < all.covered.size(); ++i) all.covered[i] += cover->second.covered[i];
   }
   Findings notes;

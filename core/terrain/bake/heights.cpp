@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "trimtab/terrain/format/checked_rows.h"
+#include "trimtab/terrain/format/post_sources.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/grid/file_at.h"
 #include "trimtab/terrain/grid/post_grid.h"
@@ -102,11 +103,15 @@ class HeightsBake {
         voids_(work.path() / kVoidsName, bitBytes_, O_RDWR | O_CREAT) {
     band_.resize(std::size_t{bandRows_} * posts_.columns);
     bandBits_.resize(bandRows_ * bitBytes_);
+    if (source.names().empty()) return;
+    sources_.emplace(work_.path() / kPostSourcesName, sourceBytes(), O_RDWR | O_CREAT);
+    bandSources_.resize(band_.size());
   }
 
   Result<BakedHeights> run() {
     if (!heights_.isOpen()) return wrong(heights_.path(), "a file that can be written", errno);
     if (!voids_.isOpen()) return wrong(voids_.path(), "a file that can be written", errno);
+    if (sources_ && !sources_->isOpen()) return wrong(sources_->path(), "a file that can be written", errno);
     baked_.posts = posts_;
     readJournal();
     if (done_ && isAsNoted()) return baked_;
@@ -177,6 +182,8 @@ class HeightsBake {
   Result<Done> readVoided(std::uint32_t first, std::uint32_t rows) {
     if (auto read = heights_.read(first, rows, band_.data()); !read) return read;
     if (auto read = voids_.read(first, rows, bandBits_.data()); !read) return read;
+    if (sources_)
+      if (auto read = sources_->read(first, rows, bandSources_.data()); !read) return read;
     for (std::uint32_t r = 0; r < rows; ++r)
       for (std::uint32_t c = 0; c < posts_.columns; ++c)
         if (bandBits_[r * bitBytes_ + c / 8] >> (c % 8) & 1)
@@ -217,7 +224,9 @@ class HeightsBake {
       std::fill(beyond.begin(), beyond.end(), std::uint8_t{0});
       const std::span<float> band = std::span(band_).first(posts);
       const std::vector<std::uint64_t> givenBefore = source_.given();
-      if (auto read = source_.readRows(next_, rows, band, std::span(beyond).first(posts)); !read) return read;
+      const auto from = std::span(bandSources_).first(sources_ ? posts : 0);
+      if (auto read = source_.readRows(next_, rows, band, std::span(beyond).first(posts), from); !read)
+        return read;
       std::fill(bandBits_.begin(), bandBits_.end(), std::uint8_t{0});
       std::uint64_t voids = 0, outside = 0;
       for (std::uint32_t r = 0; r < rows; ++r)
@@ -230,6 +239,8 @@ class HeightsBake {
         }
       if (auto put = heights_.write(next_, rows, band_.data()); !put) return put;
       if (auto put = voids_.write(next_, rows, bandBits_.data()); !put) return put;
+      if (sources_)
+        if (auto put = sources_->write(next_, rows, bandSources_.data()); !put) return put;
       Band made{next_, rows, voids, outside, hexadecimal(rowsSum(rows)), source_.given()};
       for (std::size_t i = 0; i < givenBefore.size(); ++i) made.given[i] -= givenBefore[i];
       std::ostringstream line;
@@ -245,10 +256,14 @@ class HeightsBake {
   /// Sums the current band row by row, so that the sum does not depend on how many rows are looked at
   /// together.
   std::uint64_t rowsSum(std::uint32_t rows, std::uint64_t sum = 0) const {
-    for (std::uint32_t r = 0; r < rows; ++r)
+    for (std::uint32_t r = 0; r < rows; ++r) {
       sum = std::rotl(sum, 1) ^ sumOf(&band_[std::size_t{r} * posts_.columns], rowBytes_);
+      if (sources_)
+        sum = std::rotl(sum, 1) ^ sumOf(&bandSources_[std::size_t{r} * posts_.columns], sourceBytes());
+    }
     return sum;
   }
+  std::size_t sourceBytes() const { return std::size_t{posts_.columns} * sizeof(std::uint16_t); }
 
   Result<Done> fill() {
     if (baked_.voids + baked_.outside == 0) return Done{};
@@ -315,6 +330,8 @@ class HeightsBake {
   std::size_t memory_, rowBytes_, bitBytes_;
   std::uint32_t bandRows_;
   RowFile heights_, voids_;
+  std::optional<RowFile> sources_;  ///< empty if the sources have no names
+  std::vector<std::uint16_t> bandSources_;
   std::vector<float> band_;
   std::vector<std::uint8_t> bandBits_;
   BakedHeights baked_;
@@ -329,7 +346,8 @@ class GridSource final : public ElevationSource {
   explicit GridSource(const HeightGrid& grid) : grid_(grid) {}
   const PostGrid& posts() const override { return grid_.posts; }
   Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
-                        std::span<std::uint8_t>) override {
+                        std::span<std::uint8_t>, std::span<std::uint16_t> from) override {
+    std::fill(from.begin(), from.end(), kNoSource);
     std::copy_n(grid_.heights.begin() + static_cast<std::ptrdiff_t>(std::size_t{first} * grid_.posts.columns),
                 std::size_t{rows} * grid_.posts.columns, heights.begin());
     return Done{};
@@ -346,6 +364,21 @@ class GridSource final : public ElevationSource {
 Result<BakedHeights> bakeHeights(const WorkFolder& work, ElevationSource& source, std::size_t memory,
                                  const Progress& progress) {
   return HeightsBake(work, source, memory, progress).run();
+}
+
+Result<std::optional<FileEntry>> bakeSources(const WorkFolder& work, const PostGrid& posts,
+                                             const std::vector<std::string>& names) {
+  if (names.empty()) return std::optional<FileEntry>();
+  std::vector<std::uint16_t> row(posts.columns);
+  const RowFile rows(work.path() / kPostSourcesName, row.size() * sizeof row[0], O_RDONLY);
+  PostSources sources(names);
+  for (std::uint32_t r = 0; r < posts.rows; ++r) {
+    if (auto read = rows.read(r, 1, row.data()); !read) return read.findings();
+    sources.addRow(row);
+  }
+  auto file = writeFile(work.database(), kSourcesName, sources.encoded());
+  if (!file) return file.findings();
+  return std::optional(std::move(file).value());
 }
 
 std::string inWords(const PostGrid& posts) {

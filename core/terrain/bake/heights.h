@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "trimtab/terrain/elevation/source.h"
+#include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/grid/height_window.h"
 #include "trimtab/terrain/grid/progress.h"
 #include "work.h"
@@ -15,6 +18,9 @@ namespace trimtab::terrain {
 
 /// File of the work folder: one bit per post, set where a void was filled.
 inline constexpr const char* kVoidsName = "voids.bits";
+
+/// File of the work folder: the source of each post, u16 row by row; none if the sources have no names.
+inline constexpr const char* kPostSourcesName = "sources.u16";
 
 /// Holds what a bake knows about its heights once they are in their file.
 struct BakedHeights {
@@ -29,6 +35,11 @@ struct BakedHeights {
 /// database. Works in bands that fit `memory` bytes, and continues where an earlier bake was interrupted.
 Result<BakedHeights> bakeHeights(const WorkFolder& work, ElevationSource& source, std::size_t memory,
                                  const Progress& progress);
+
+/// Writes the sources of all posts as runs to the work folder's database, once the heights are baked. Returns
+/// none, and writes nothing, if the sources have no names.
+Result<std::optional<FileEntry>> bakeSources(const WorkFolder& work, const PostGrid& posts,
+                                             const std::vector<std::string>& names);
 
 /// Describes finished work that was made for a different grid: which grid, and which parts. It is empty if
 /// none is.

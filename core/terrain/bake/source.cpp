@@ -15,6 +15,7 @@
 #include "trimtab/terrain/elevation/georeference.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/grid/progress.h"
+#include "trimtab/terrain/ground/imagery.h"
 #include "trimtab/terrain/scenery/made.h"
 #include "trimtab/terrain/scenery/memory.h"
 #include "trimtab/terrain/scenery/merge.h"
@@ -41,6 +42,8 @@ Json recipeJson(const BakeOptions& options, const std::vector<fs::path>& files) 
   recipe["max_error_m"] = options.maxError ? Json(options.maxError->value()) : Json();
   recipe["post_m"] = options.post ? Json(options.post->value()) : Json();
   recipe["triangles_per_node"] = options.trianglesPerNode;
+  if (options.reading.heightUnit) recipe["height_unit_m"] = *options.reading.heightUnit;
+  if (options.reading.ignoreChecksums) recipe["ignore_checksums"] = true;
   if (options.keepLines) recipe["keep_lines"] = true;
   if (options.keepTexture) recipe["keep_texture"] = true;
   return recipe;
@@ -91,6 +94,7 @@ Result<std::unique_ptr<BakeSource>> openScenery(const BakeOptions& options, std:
   std::unique_ptr<ElevationSource> elevation;
   if (others != sources.end()) {
     ElevationOptions elevationOptions;
+    elevationOptions.reading = options.reading;
     elevationOptions.progress = stageOf(progress, 0.5, 0.6);
     auto opened = openElevation({others, sources.end()}, elevationOptions);
     if (!opened) return opened.findings();
@@ -120,6 +124,7 @@ Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, std::
   const auto scenery = std::count_if(options.sources.begin(), options.sources.end(), isScenery);
   if (scenery == 0) {
     ElevationOptions elevation;
+    elevation.reading = options.reading;
     elevation.progress = progress;
     if (options.post) elevation.stepLatitude = options.post->value() / kMetresADegree;
     auto opened = openElevation(options.sources, elevation);
@@ -198,7 +203,9 @@ std::string stampedRecipe(const BakeOptions& options, const std::vector<fs::path
   recipe["builder"] = kBuilderVersion;
   recipe[kArithmetic] = arithmeticOfThisMachine();
   std::vector<fs::path> all = files;
-  if (options.imagery) all.push_back(*options.imagery);
+  if (options.imagery)
+    if (const auto images = imageryFiles(*options.imagery))
+      all.insert(all.end(), images->begin(), images->end());
   recipe["stamps"] = stampsOf(all);
   return dump(recipe);
 }

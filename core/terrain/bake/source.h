@@ -18,7 +18,7 @@ namespace trimtab::terrain {
 
 /// Raise this with every change of the mesher, the patch sides or the tolerances: pieces that different
 /// versions made do not fit together.
-inline constexpr int kBuilderVersion = 11;
+inline constexpr int kBuilderVersion = 12;
 
 /// The opened sources of a bake: elevation, scenery, or scenery with elevation beside it.
 struct BakeSource {

@@ -93,8 +93,8 @@ Finding otherArithmetic(const fs::path& path) {
 
 /// Reports whether a bake makes this in its work folder.
 bool isOfABake(const fs::path& inFolder) {
-  constexpr std::array<std::string_view, 6> kFiles = {"lock",         "heights.lock", "recipe.json",
-                                                      "recipe.spent", "journal",      kVoidsName};
+  constexpr std::array<std::string_view, 7> kFiles = {
+      "lock", "heights.lock", "recipe.json", "recipe.spent", "journal", kVoidsName, kPostSourcesName};
   const std::string folder = inFolder.parent_path().string(), name = inFolder.filename().string();
   if (folder == "database" || folder == "old") return isDatabaseFile(name);
   if (folder == "pieces") return name.ends_with(".pages");

@@ -31,6 +31,7 @@ class FileLock {
 ///   recipe.json       the stamped recipe; another recipe empties the folder
 ///   journal           one line with a checksum per finished step
 ///   voids.bits        one bit per post, set where a void was filled
+///   sources.u16       the number of the source of each post
 ///   pieces/N.pages    finished pages of patches
 ///   database/         what becomes the output; heights.f32 is made in place
 class WorkFolder {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dted.h"
+#include "height_unit.h"
 #include "sample.h"
 #include "trimtab/terrain/grid/progress.h"
 #include "trimtab/units/number.h"
@@ -27,7 +29,8 @@ constexpr double kFiner = 1.5;
 
 }  // namespace
 
-Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path, const Progress& progress) {
+Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path, const Reading& options,
+                                                           const Progress& progress) {
   useGdal();
   GdalErrors errors;
   auto opened = openRaster(path, errors, RasterKind::heights);
@@ -39,6 +42,10 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   file->name_ = path.string();
   file->across_ = raster.data->GetRasterXSize();
   file->down_ = raster.data->GetRasterYSize();
+  if (Findings faults = dtedFaults(raster, path, options.ignoreChecksums); !faults.empty()) {
+    notes.insert(notes.end(), faults.begin(), faults.end());
+    if (hasError(faults)) return notes;
+  }
   const double posts = static_cast<double>(file->across_) * static_cast<double>(file->down_);
   if (posts > kMostPosts || std::max(file->across_, file->down_) > kLongestSide || file->across_ < 2 ||
       file->down_ < 2)
@@ -53,11 +60,17 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
                  std::to_string(blockColumns) + " x " + std::to_string(blockRows) + " posts in one");
 
   file->turn_ = turnOf(raster);
-  // A post may stand where the first does.
-  const double pixel = std::abs(raster.transform[1]), width = static_cast<double>(file->across_ - 1) * pixel;
-  if (file->turn_ > 0 && width > file->turn_ + pixel / 2)
-    return about(Severity::error, path, "longitude", "at most 360 degrees from the first post to the last",
-                 numberText(width / file->turn_ * 360, 6) + " degrees");
+  // The last post may stand where the first does; what comes after it repeats others.
+  const double pixel = std::abs(raster.transform[1]);
+  if (const double once = file->turn_ / pixel + 1.5;
+      file->turn_ > 0 && static_cast<double>(file->across_) > once) {
+    raster.columns = static_cast<int>(once);
+    notes.push_back(about(Severity::note, path, "longitude",
+                          "at most 360 degrees from the first post to the last",
+                          std::to_string(file->across_ - raster.columns) + " columns more, from column " +
+                              std::to_string(raster.columns) + " on: left out, as they repeat the first"));
+    file->across_ = raster.columns;
+  }
   const auto direct = geographicPosts(raster);
   file->direct_ = direct.has_value();
   file->flipped_ = direct && raster.transform[5] < 0;
@@ -77,7 +90,10 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   if (file->vertical_.lost)
     notes.push_back(about(Severity::warning, path, "vertical datum", file->vertical_.lost->first,
                           file->vertical_.lost->second));
-  file->values_ = valuesOf(band, file->vertical_.unit);
+  const auto unit = heightUnitOf(raster, file->name_, file->vertical_, options.heightUnit);
+  notes.insert(notes.end(), unit.findings().begin(), unit.findings().end());
+  if (!unit) return notes;
+  file->values_ = valuesOf(band, *unit);
   if (file->values_.scale != 1)
     notes.push_back(about(Severity::note, path, "unit", "metres",
                           "a scale of " + numberText(file->values_.scale, 9) + " m, applied"));
@@ -94,7 +110,7 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
 
 std::unique_ptr<ElevationFile> ElevationFile::turned(double degrees) const {
   std::unique_ptr<ElevationFile> file(
-      new ElevationFile(PlacedRaster{owned(nullptr), raster_.transform, raster_.crs}));
+      new ElevationFile(PlacedRaster{owned(nullptr), raster_.transform, raster_.crs, raster_.columns}));
   file->name_ = name_;
   file->own_ = own_;
   file->values_ = values_;
@@ -154,7 +170,7 @@ Result<Done> ElevationFile::reopen() {
   const GdalErrors quiet;
   raster_.data = owned(GDALDataset::FromHandle(
       GDALOpenEx(name_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr)));
-  if (!raster_.data || raster_.data->GetRasterXSize() != across_ || raster_.data->GetRasterYSize() != down_)
+  if (!raster_.data || raster_.data->GetRasterXSize() < across_ || raster_.data->GetRasterYSize() != down_)
     return about(Severity::error, name_, "", "the file as it was a moment ago", "another one, or none");
   return Done{};
 }

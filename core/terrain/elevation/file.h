@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trimtab/terrain/elevation/georeference.h"
+#include "trimtab/terrain/elevation/source.h"
 #include "trimtab/terrain/grid/post_grid.h"
 #include "trimtab/terrain/grid/progress.h"
 #include "values.h"
@@ -37,7 +38,7 @@ class ElevationFile {
 
   /// Opens the file, reads every height once to find voids and damage, and closes it again.
   static Result<std::unique_ptr<ElevationFile>> open(const std::filesystem::path& path,
-                                                     const Progress& progress);
+                                                     const Reading& options, const Progress& progress);
 
   const std::string& name() const { return name_; }
   /// Returns the grid that the file would have by itself.

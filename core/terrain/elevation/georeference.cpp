@@ -1,5 +1,6 @@
 #include "trimtab/terrain/elevation/georeference.h"
 
+#include <cpl_vsi.h>
 #include <gdal_utils.h>
 
 #include <algorithm>
@@ -44,7 +45,7 @@ double turnOf(const PlacedRaster& raster) {
   const GdalErrors quiet;
   const auto& g = raster.transform;
   const double pixel = std::abs(g[1]), row = raster.data->GetRasterYSize() / 2.0;
-  for (const double column : {0.5, raster.data->GetRasterXSize() - 0.5}) {
+  for (const double column : {0.5, raster.columns - 0.5}) {
     const double x = g[0] + g[1] * column + g[2] * row, y = g[3] + g[4] * column + g[5] * row;
     double longitude = x, latitude = y;
     if (!there->Transform(1, &longitude, &latitude)) continue;
@@ -73,7 +74,7 @@ std::optional<PostGrid> geographicPosts(const PlacedRaster& raster) {
   GDALDataset& data = *raster.data;
   if (!crs.IsGeographic() || g[2] != 0 || g[4] != 0 || g[1] <= 0 || g[5] == 0) return {};
   PostGrid posts;
-  posts.columns = static_cast<std::uint32_t>(data.GetRasterXSize());
+  posts.columns = static_cast<std::uint32_t>(raster.columns);
   posts.rows = static_cast<std::uint32_t>(data.GetRasterYSize());
   posts.stepLongitude = g[1];
   posts.stepLatitude = std::abs(g[5]);
@@ -115,15 +116,15 @@ int poleIn(const PlacedRaster& raster) {
       OGRCreateCoordinateTransformation(&from, &raster.crs));
   if (!transform || raster.crs.IsGeographic() || !GDALInvGeoTransform(forward.data(), inverse.data()))
     return 0;
+  // Most projections do not reach a pole, which is no fault of the raster.
+  const GdalErrors quiet;
   for (const int pole : {1, -1}) {
     // A pole counts only where it is a point, and not the edge of a cylinder.
     std::array<double, 2> x{0, 90}, y{90.0 * pole, 90.0 * pole};
     if (!transform->Transform(2, x.data(), y.data()) || std::hypot(x[1] - x[0], y[1] - y[0]) > 1) continue;
     const double column = inverse[0] + inverse[1] * x[0] + inverse[2] * y[0],
                  row = inverse[3] + inverse[4] * x[0] + inverse[5] * y[0];
-    if (column > 0 && row > 0 && column < raster.data->GetRasterXSize() &&
-        row < raster.data->GetRasterYSize())
-      return pole;
+    if (column > 0 && row > 0 && column < raster.columns && row < raster.data->GetRasterYSize()) return pole;
   }
   return 0;
 }
@@ -137,7 +138,7 @@ std::optional<PostGrid> fittingPosts(const PlacedRaster& raster) {
   OGRSpatialReference to = degreesOfWgs84();
   std::unique_ptr<OGRCoordinateTransformation> transform(OGRCreateCoordinateTransformation(&crs, &to));
   if (!transform) return {};
-  const double columns = data.GetRasterXSize(), rows = data.GetRasterYSize();
+  const double columns = raster.columns, rows = data.GetRasterYSize();
   std::optional<double> reference;
   const auto place = [&](double column, double row) -> std::optional<std::array<double, 2>> {
     double x = g[0] + g[1] * (column + 0.5) + g[2] * (row + 0.5),
@@ -207,7 +208,6 @@ Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid
                                     "EPSG:4326",
                                     "-et",
                                     "0",
-                                    "-multi",
                                     "-wo",
                                     "NUM_THREADS=ALL_CPUS",
                                     "-te",
@@ -255,20 +255,36 @@ std::string whatItIs(const fs::path& file, const GdalErrors& errors) {
   return kind + (unknown ? ", not recognized as a raster" : ", not recognized as a raster (" + reason + ")");
 }
 
+/// Tells a path where nothing is, and a folder, from a file. A name that only GDAL understands, as of a file
+/// in an archive or of a part of a file, is left to it.
+Result<Done> isOneFile(const fs::path& file) {
+  std::error_code error;
+  if (fs::is_directory(file, error))
+    // Some formats are folders, which GDAL knows by what is inside.
+    return GDALIdentifyDriverEx(file.c_str(), GDAL_OF_RASTER, nullptr, nullptr) != nullptr
+               ? Result<Done>(Done{})
+               : about(Severity::error, file, "", "a raster that GDAL can read", "a folder that is none");
+  VSIStatBufL there;
+  if (!fs::exists(file, error) && file.string().find(':') == std::string::npos &&
+      VSIStatL(file.c_str(), &there) != 0)
+    return about(Severity::error, file, "", "a raster that GDAL can read", "nothing there");
+  return Done{};
+}
+
 }  // namespace
 
 Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, RasterKind kind) {
+  if (auto there = isOneFile(file); !there) return there.findings();
   if (const auto data = checkIsData(file); !data) return data.findings();
   if (neverEnds(file))
     return about(Severity::error, file, "", "a raster that GDAL can read", "a pipe or a device");
-  // A DTED profile carries a sum that GDAL leaves unread unless it is asked to.
-  CPLSetThreadLocalConfigOption("DTED_VERIFY_CHECKSUM", "YES");
   Findings notes;
   PlacedRaster opened{owned(GDALDataset::FromHandle(
                           GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                      nullptr, nullptr, nullptr))),
                       {},
-                      degreesOfWgs84()};
+                      degreesOfWgs84(),
+                      0};
   if (!opened.data)
     return about(Severity::error, file, "", "a raster that GDAL can read", whatItIs(file, errors));
   if (opened.data->GetRasterCount() < 1)
@@ -278,12 +294,25 @@ Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, Raster
                  "an image of " + std::to_string(opened.data->GetRasterCount()) +
                      " bands of bytes, which can be draped over elevation");
   errors.moveTo(notes, file.string(), Severity::warning);
-  if (opened.data->GetGeoTransform(opened.transform.data()) != CE_None)
-    return about(Severity::error, file, "georeference", "where the raster is on earth", "none");
+  opened.columns = opened.data->GetRasterXSize();
+  const OGRSpatialReference* crs = opened.data->GetSpatialRef();
+  if (opened.data->GetGeoTransform(opened.transform.data()) != CE_None) {
+    const int points = opened.data->GetGCPCount();
+    if (points == 0)
+      return about(Severity::error, file, "georeference", "where the raster is on earth", "none");
+    if (!GDALGCPsToGeoTransform(points, opened.data->GetGCPs(), opened.transform.data(), FALSE))
+      return about(Severity::error, file, "georeference",
+                   "where the raster is on earth: warp it by its points first, with \"gdalwarp -tps -t_srs "
+                   "EPSG:4326 IN OUT.tif\"",
+                   std::to_string(points) + " ground control points, which do not lie on a plane map");
+    crs = opened.data->GetGCPSpatialRef();
+    notes.push_back(about(Severity::note, file, "georeference", "where the raster is on earth",
+                          std::to_string(points) + " ground control points: placed by them"));
+  }
   for (const double g : opened.transform)
     if (!std::isfinite(g))
       return about(Severity::error, file, "georeference", "finite numbers", "not a number");
-  if (const OGRSpatialReference* crs = opened.data->GetSpatialRef(); crs != nullptr && !crs->IsLocal()) {
+  if (crs != nullptr && !crs->IsLocal()) {
     opened.crs = *crs;
     // What heights are measured from is another matter than where they are.
     if (opened.crs.IsCompound()) opened.crs.StripVertical();

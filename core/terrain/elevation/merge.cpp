@@ -75,7 +75,7 @@ struct Shares {
   explicit Shares(std::size_t posts) : left(posts, 1), taken(posts, 0), most(posts, 0), leader(posts, 0) {}
 };
 
-void mergeContinued(const ElevationChunk& chunk, std::span<float> heights, std::span<std::uint64_t> given) {
+void mergeContinued(const ElevationChunk& chunk, std::span<float> heights, std::span<std::uint32_t> from) {
   const bool any = std::any_of(chunk.layers.begin(), chunk.layers.end(),
                                [](const ElevationLayer& layer) { return !layer.continued.empty(); });
   if (!any) return;
@@ -95,7 +95,7 @@ void mergeContinued(const ElevationChunk& chunk, std::span<float> heights, std::
   for (std::size_t i = 0; i < heights.size(); ++i)
     if (inside[i] != 0) {
       heights[i] = sum[i];
-      if (chunk.counts(i)) ++given[shares.leader[i]];
+      from[i] = static_cast<std::uint32_t>(shares.leader[i]);
     }
 }
 
@@ -117,8 +117,9 @@ void ElevationChunk::count() {
 }
 
 void mergeChunk(const ElevationChunk* below, const ElevationChunk& chunk, const ElevationChunk* above,
-                std::span<float> heights, std::span<std::uint64_t> given) {
+                std::span<float> heights, std::span<std::uint32_t> from) {
   std::fill(heights.begin(), heights.end(), kVoid);
+  std::fill(from.begin(), from.end(), kNoFile);
   std::optional<Shares> shares;
   for (const ElevationLayer& layer : chunk.layers) {
     std::vector<std::uint8_t> far;
@@ -131,7 +132,7 @@ void mergeChunk(const ElevationChunk* below, const ElevationChunk& chunk, const 
         const std::size_t i = std::size_t{r} * chunk.columns + layer.firstColumn + c;
         if (chunk.covered[i] == 1) {
           heights[i] = own;
-          if (chunk.counts(i)) ++given[layer.file];
+          from[i] = static_cast<std::uint32_t>(layer.file);
           continue;
         }
         if (far.empty()) far = upAndDown({below, &chunk, above}, layer, first, count);
@@ -152,8 +153,8 @@ void mergeChunk(const ElevationChunk* below, const ElevationChunk& chunk, const 
   }
   if (shares)
     for (std::size_t i = 0; i < heights.size(); ++i)
-      if (chunk.covered[i] > 1 && chunk.counts(i)) ++given[shares->leader[i]];
-  mergeContinued(chunk, heights, given);
+      if (chunk.covered[i] > 1) from[i] = static_cast<std::uint32_t>(shares->leader[i]);
+  mergeContinued(chunk, heights, from);
 }
 
 }  // namespace trimtab::terrain

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -37,9 +38,12 @@ struct ElevationChunk {
   bool counts(std::size_t post) const { return post % columns - margin < columns - 2 * margin; }
 };
 
-/// Computes the heights of a chunk's posts, NaN where no file has one, and adds to `given` how many posts
-/// each file gave. `below` and `above` are the adjacent chunks, null at the ends of the grid.
+/// ElevationLayer::file of posts that have no height.
+inline constexpr std::uint32_t kNoFile = std::numeric_limits<std::uint32_t>::max();
+
+/// Computes the heights of a chunk's posts, NaN where no file has one, and `from`, the file that gave each
+/// height or most of it. `below` and `above` are the adjacent chunks, null at the ends of the grid.
 void mergeChunk(const ElevationChunk* below, const ElevationChunk& chunk, const ElevationChunk* above,
-                std::span<float> heights, std::span<std::uint64_t> given);
+                std::span<float> heights, std::span<std::uint32_t> from);
 
 }  // namespace trimtab::terrain

@@ -72,6 +72,7 @@ std::vector<ElevationFile::Place> ElevationFile::exact(std::uint32_t row, std::u
                    snapped((latitude - own_.south) / own_.stepLatitude), 0};
   } else {
     fill();
+    const GdalErrors quiet;
     toFile_->Transform(static_cast<int>(count), x.data(), y.data(), nullptr, good.get());
     const double middle = raster_.transform[0] + raster_.transform[1] * static_cast<double>(across_) / 2 +
                           raster_.transform[2] * static_cast<double>(down_) / 2;
@@ -90,7 +91,7 @@ std::vector<ElevationFile::Place> ElevationFile::exact(std::uint32_t row, std::u
     const GdalErrors quiet;
     vertical_.toFile->Transform(static_cast<int>(count), x.data(), y.data(), z.data(), good.get());
     for (std::uint32_t i = 0; i < count; ++i)
-      places[i].lift = good[i] && std::isfinite(z[i]) ? -z[i] * vertical_.unit : std::nan("");
+      places[i].lift = good[i] && std::isfinite(z[i]) ? -z[i] * *vertical_.unit : std::nan("");
   }
   return places;
 }

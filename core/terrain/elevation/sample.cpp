@@ -46,6 +46,24 @@ double mixed(const std::array<double, 4>& v, const std::array<double, 4>& weight
   return sum;
 }
 
+/// The range of heights, which a cubic must not leave: at a cliff it would swing below a level sea.
+class Range {
+ public:
+  void add(double height) {
+    if (std::isnan(height)) return;
+    low_ = std::min(low_, height), high_ = std::max(high_, height);
+  }
+  double nearest(double height) const { return std::clamp(height, low_, high_); }
+
+ private:
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+};
+
+/// Tells whether a place on an axis lies beyond its posts, where the height goes straight on.
+bool isBeyond(const Axis& axis) {
+  return axis.weight[1] < 0 || axis.weight[2] < 0;
+}
+
 }  // namespace
 
 float heightBetween(const RasterWindow& window, std::int64_t across, std::int64_t down, double x, double y) {
@@ -74,17 +92,21 @@ float heightBetween(const RasterWindow& window, std::int64_t across, std::int64_
       level = h;
     }
   if (level && isLevel) return static_cast<float>(*level);
+  Range range;
   std::array<double, 4> rows{};
   for (std::size_t j = 0; j < 4; ++j) {
     if (row.weight[j] == 0) continue;
     std::array<double, 4> values{};
     for (std::size_t i = 0; i < 4; ++i)
-      if (column.weight[i] != 0)
+      if (column.weight[i] != 0) {
         values[i] =
             at(row.post + static_cast<std::int64_t>(j) - 1, column.post + static_cast<std::int64_t>(i) - 1);
+        range.add(values[i]);
+      }
     rows[j] = mixed(values, column.weight);
   }
-  return static_cast<float>(mixed(rows, row.weight));
+  const double height = mixed(rows, row.weight);
+  return static_cast<float>(isBeyond(column) || isBeyond(row) ? height : range.nearest(height));
 }
 
 void PostMean::add(const RasterWindow& window, double x, double y, double width, double height) {
@@ -122,16 +144,19 @@ float meanAlong(const RasterWindow& window, bool across, std::int64_t columns, s
   const std::int64_t count = across ? rows : columns;
   if (!isWithinAPost(place, count)) return std::numeric_limits<float>::quiet_NaN();
   const Axis axis = axisAt(place, count);
+  Range range;
   std::array<double, 4> means{};
   for (std::size_t k = 0; k < 4; ++k) {
     if (axis.weight[k] == 0) continue;
     const auto line = static_cast<double>(axis.post + static_cast<std::int64_t>(k) - 1);
     means[k] = static_cast<double>(across ? meanAbout(window, x, line, size, 0)
                                           : meanAbout(window, line, y, 0, size));
+    range.add(means[k]);
   }
   // Level water, as between posts.
   if (axis.weight[1] != 0 && axis.weight[2] != 0 && means[1] == means[2]) return static_cast<float>(means[1]);
-  return static_cast<float>(mixed(means, axis.weight));
+  const double height = mixed(means, axis.weight);
+  return static_cast<float>(isBeyond(axis) || std::isnan(height) ? height : range.nearest(height));
 }
 
 }  // namespace trimtab::terrain

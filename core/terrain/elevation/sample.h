@@ -14,9 +14,11 @@ struct RasterWindow {
 
 /// At (x, y), counted in the raster's posts: the height there, to the bit, where that is a post; cubic (Keys)
 /// between posts, with what is missing about a void or a border continued from the other side; NaN where one
-/// of the nearest four that counts is a void. Water stays level: four equal posts have nothing else between
-/// them. Up to a post beyond the raster (`across` x `down` posts) straight on; NaN further away, and where x
-/// or y is no number. The window must hold the 4 x 4 posts about the place, as far as the raster has them.
+/// of the nearest four that counts is a void. It is never lower or higher than the up to 16 posts that it is
+/// made from, so that a cliff casts no trench into the sea. Water stays level: four equal posts have nothing
+/// else between them. Up to a post beyond the raster (`across` x `down` posts) straight on; NaN further away,
+/// and where x or y is no number. The window must hold the 4 x 4 posts about the place, as far as the raster
+/// has them.
 float heightBetween(const RasterWindow& window, std::int64_t across, std::int64_t down, double x, double y);
 
 /// A mean of posts that come in several windows, by rows.

@@ -184,21 +184,24 @@ class MergedElevation final : public ElevationSource {
   std::vector<std::string> names() const override { return names_; }
 
   Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
-                        std::span<std::uint8_t> beyond) override {
+                        std::span<std::uint8_t> beyond, std::span<std::uint16_t> from) override {
     const std::size_t across = grid_.columns;
     for (std::uint32_t row = first; row < first + rows;) {
-      const std::uint32_t index = row / kChunkRows, from = row % kChunkRows,
-                          count = std::min(kChunkRows - from, first + rows - row);
+      const std::uint32_t index = row / kChunkRows, start = row % kChunkRows,
+                          count = std::min(kChunkRows - start, first + rows - row);
       if (auto merged = merge(index); !merged) return merged;
       for (std::uint32_t r = 0; r < count; ++r) {
         const auto at = static_cast<std::ptrdiff_t>(std::size_t{row - first + r} * across),
-                   in = static_cast<std::ptrdiff_t>(std::size_t{from + r} * wide_.columns + margin_),
+                   in = static_cast<std::ptrdiff_t>(std::size_t{start + r} * wide_.columns + margin_),
                    n = static_cast<std::ptrdiff_t>(across);
         std::copy_n(merged_.begin() + in, n, heights.begin() + at);
         if (!beyond.empty())
           std::transform(
               reached_.begin() + in, reached_.begin() + in + n, beyond.begin() + at,
               [](std::uint8_t reached) { return reached == 0 ? std::uint8_t{1} : std::uint8_t{0}; });
+        if (!from.empty())
+          std::transform(from_.begin() + in, from_.begin() + in + n, from.begin() + at,
+                         [&](std::uint32_t file) { return sourceOf(file); });
       }
       row += count;
       // The count includes the last row, so that whoever goes on within a chunk counts it as one who began
@@ -223,12 +226,21 @@ class MergedElevation final : public ElevationSource {
       if (auto read = hold(k); !read) return read;
     }
     merged_.resize(std::size_t{kChunkRows} * wide_.columns);
-    givenNow_.assign(files_.size(), 0);
+    from_.resize(merged_.size());
     const ElevationChunk& chunk = *find(index);
-    mergeChunk(index > 0 ? find(index - 1) : nullptr, chunk, find(index + 1), merged_, givenNow_);
+    mergeChunk(index > 0 ? find(index - 1) : nullptr, chunk, find(index + 1), merged_, from_);
+    givenNow_.assign(files_.size(), 0);
+    for (std::size_t i = 0; i < from_.size(); ++i)
+      if (from_[i] != kNoFile && chunk.counts(i)) ++givenNow_[from_[i]];
     reached_ = chunk.reached;
     at_ = index;
     return Done{};
+  }
+
+  /// Names beyond the numbers that there are for them stay unknown.
+  std::uint16_t sourceOf(std::uint32_t file) const {
+    return file == kNoFile || named_[file] >= kNoSource ? kNoSource
+                                                        : static_cast<std::uint16_t>(named_[file]);
   }
 
   void countGiven(std::uint32_t index) {
@@ -303,6 +315,7 @@ class MergedElevation final : public ElevationSource {
   std::list<Held> held_;
   std::list<std::size_t> open_;
   std::vector<float> merged_;
+  std::vector<std::uint32_t> from_;  ///< the file of each of these
   std::vector<std::uint8_t> reached_;
   std::uint32_t at_ = std::numeric_limits<std::uint32_t>::max();
 };
@@ -324,7 +337,7 @@ Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const fs::path>
           !options.progress((static_cast<double>(i) + fraction) / static_cast<double>(paths->size()), what);
       return !stopped;
     };
-    auto file = ElevationFile::open((*paths)[i], share);
+    auto file = ElevationFile::open((*paths)[i], options.reading, share);
     findings.insert(findings.end(), file.findings().begin(), file.findings().end());
     if (stopped) return findings;
     if (file)

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <limits>
-#include <map>
 
 #include "trimtab/units/number.h"
 
@@ -13,31 +11,6 @@ namespace trimtab::terrain {
 namespace {
 
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
-
-/// Returns the metres per unit of the band.
-std::optional<double> verticalUnit(const std::string& name) {
-  static const std::map<std::string, double> kUnits = {{"ft", 0.3048},
-                                                       {"foot", 0.3048},
-                                                       {"feet", 0.3048},
-                                                       {"international foot", 0.3048},
-                                                       {"us survey foot", 1200.0 / 3937},
-                                                       {"ftus", 1200.0 / 3937},
-                                                       {"us-ft", 1200.0 / 3937},
-                                                       {"sfoot", 1200.0 / 3937},
-                                                       {"foot_us", 1200.0 / 3937},
-                                                       {"cm", 0.01},
-                                                       {"centimetre", 0.01},
-                                                       {"centimeter", 0.01},
-                                                       {"dm", 0.1},
-                                                       {"km", 1000},
-                                                       {"yd", 0.9144},
-                                                       {"fathom", 1.8288}};
-  if (name.empty()) return {};
-  std::string lower;
-  for (const char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto unit = kUnits.find(lower);
-  return unit == kUnits.end() ? 1.0 : unit->second;
-}
 
 float metresOf(float raw, const Values& values) {
   return static_cast<float>(raw * values.scale + values.offset);
@@ -70,12 +43,11 @@ bool looksLikeImage(GDALDataset& data) {
          band->GetColorTable() != nullptr;
 }
 
-Values valuesOf(GDALRasterBand& band, double crsUnit) {
+Values valuesOf(GDALRasterBand& band, double unit) {
   Values values;
   int has = 0;
   const double noData = band.GetNoDataValue(&has);
   if (has) values.noData = noData;
-  const double unit = verticalUnit(band.GetUnitType()).value_or(crsUnit);
   const double scale = band.GetScale(&has);
   values.scale = unit * (has ? scale : 1.0);
   const double offset = band.GetOffset(&has);
@@ -148,8 +120,10 @@ Vertical verticalOf(const PlacedRaster& raster) {
   file.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   const char* name = file.IsCompound() ? file.GetAttrValue("COMPD_CS|VERT_CS") : nullptr;
   const std::string datum = name ? name : "the ellipsoid";
-  if (file.IsCompound()) vertical.unit = file.GetTargetLinearUnits("COMPD_CS|VERT_CS", nullptr);
-  if (!(vertical.unit > 0)) vertical.unit = 1;
+  double unit = 1;
+  if (file.IsCompound()) unit = file.GetTargetLinearUnits("COMPD_CS|VERT_CS", nullptr);
+  if (!(unit > 0)) unit = 1;
+  vertical.unit = unit;
   if (geoid.SetFromUserInput("EPSG:4326+5773") != OGRERR_NONE) return vertical;
   geoid.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   const std::string expected = "heights above the EGM96 geoid, or a datum that PROJ has a grid for";
@@ -189,7 +163,7 @@ Vertical verticalOf(const PlacedRaster& raster) {
         ++lost;
         continue;
       }
-      low = std::min(low, -z[i] * vertical.unit), high = std::max(high, -z[i] * vertical.unit);
+      low = std::min(low, -z[i] * unit), high = std::max(high, -z[i] * unit);
     }
   }
   if (lost == tried) return vertical;

@@ -29,8 +29,8 @@ struct Values {
   bool deepIsVoid = false;
 };
 
-/// Reads the band's tags. `crsUnit`: metres per unit of the vertical CRS, used if the band names no unit.
-Values valuesOf(GDALRasterBand& band, double crsUnit);
+/// Reads the band's tags. `unit`: metres per unit of its heights.
+Values valuesOf(GDALRasterBand& band, double unit);
 
 /// Statistics of all numbers of a file, from which its void numbers are recognised.
 class Census {
@@ -65,7 +65,7 @@ void toMetres(std::span<float> raw, const Values& values);
 /// Says how a file's heights are converted to heights above the EGM96 geoid. Files without a vertical datum
 /// are assumed to have such heights already.
 struct Vertical {
-  double unit = 1;  ///< metres a unit of the vertical CRS
+  std::optional<double> unit;  ///< metres per unit of the vertical CRS; none if the raster has no such CRS
   /// Transforms from EGM96 to the file's datum; null if no conversion is needed, or none is possible.
   std::shared_ptr<OGRCoordinateTransformation> toFile;
   std::optional<std::pair<std::string, std::string>> note;  ///< expected, found

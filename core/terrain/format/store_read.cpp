@@ -9,6 +9,7 @@
 #include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/format/ground_pyramid.h"
 #include "trimtab/terrain/format/patch_store.h"
+#include "trimtab/terrain/format/post_sources.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/format/unchecked.h"
@@ -101,6 +102,12 @@ struct Files {
     if ((*stored)->size() == expected) return *stored;
     findings.push_back(wrong(folder / name, "size", bytesText(expected), bytesText((*stored)->size())));
     return {};
+  }
+  /// Opens a file whose size follows from the manifest alone, if there is one.
+  void openListed(const char* name) {
+    if (!entries.is_object() || !entries.contains(name)) return;
+    const Json stated = entries[name].is_object() ? entries[name].value("bytes", Json()) : Json();
+    open(name, stated.is_number_unsigned() ? stated.get<std::uint64_t>() : 0);
   }
   /// Reads all of it into `into`, if it is what the manifest says.
   bool whole(const StoredFile& stored, const char* name, std::span<std::byte> into) {
@@ -247,6 +254,8 @@ Result<Contents> readContents(const fs::path& folder) {
                  });
   // This comes before anything else is allocated by what the manifest claims.
   if (!contents.heights) return files.findings;
+  // Its contents are compared when somebody asks for them (readPostSources).
+  files.openListed(kSourcesName);
   // A bake that was given too little memory for them left the tiles out.
   if (old ||
       (posts.size() <= kMostTiledPosts && files.entries.is_object() && files.entries.contains(kNodesName))) {

@@ -6,6 +6,7 @@
 #include "tiled_database.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/format/post_sources.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/grid/land_cover.h"
@@ -22,7 +23,8 @@ constexpr double kRadian = std::numbers::pi / 180;
 
 class TiledDatabase final : public Database {
  public:
-  explicit TiledDatabase(Contents contents) : contents_(std::move(contents)), geometry_(contents_.posts) {
+  TiledDatabase(Contents contents, std::filesystem::path folder)
+      : contents_(std::move(contents)), folder_(std::move(folder)), geometry_(contents_.posts) {
     contents_.index.frame = geometry_.frame();
   }
 
@@ -50,6 +52,7 @@ class TiledDatabase final : public Database {
   void vertexSlopes(const TilePosts& tile, std::array<std::uint8_t, kSide * kSide>& slopes) const;
 
   Contents contents_;
+  std::filesystem::path folder_;
   PostGeometry geometry_;
 };
 
@@ -240,12 +243,13 @@ Findings TiledDatabase::checkAll() const {
   if (contents_.image) contents_.image->checkAll();
   Findings findings = rowDamage();
   for (const auto& pages : contents_.pageFiles) append(findings, pages->checkAll().findings());
+  append(findings, readPostSources(folder_).findings());
   return findings;
 }
 
 }  // namespace
 
-std::shared_ptr<const Database> makeDatabase(Contents contents) {
+std::shared_ptr<const Database> makeDatabase(Contents contents, std::filesystem::path folder) {
   const PostGrid& posts = contents.posts;
   TerrainInfo& info = contents.info;
   info.columns = posts.columns;
@@ -255,7 +259,7 @@ std::shared_ptr<const Database> makeDatabase(Contents contents) {
   info.southWest = {Degrees{posts.south}, wrapped180(Degrees{posts.west}), info.lowest};
   info.northEast = {Degrees{posts.latitude(posts.rows - 1)},
                     wrapped180(Degrees{posts.longitude(posts.columns - 1)}), info.highest};
-  return std::make_shared<TiledDatabase>(std::move(contents));
+  return std::make_shared<TiledDatabase>(std::move(contents), std::move(folder));
 }
 
 bool isDatabase(const std::filesystem::path& folder) {
@@ -267,7 +271,7 @@ Result<std::shared_ptr<const Database>> Database::open(const std::filesystem::pa
   return withinMemory(folder, [&]() -> Result<std::shared_ptr<const Database>> {
     auto contents = readContents(folder);
     if (!contents) return contents.findings();
-    return Result<std::shared_ptr<const Database>>(makeDatabase(std::move(contents).value()));
+    return Result<std::shared_ptr<const Database>>(makeDatabase(std::move(contents).value(), folder));
   });
 }
 

@@ -104,7 +104,7 @@ class Blocks {
   }
 
   GroundCover cover() const {
-    GroundCover cover{std::uint64_t{levels_[0].columns} * levels_[0].rows, {}};
+    GroundCover cover{std::uint64_t{levels_[0].columns} * levels_[0].rows, coveredByAny_, {}};
     for (const auto& covered : covered_) cover.covered.push_back(covered.load());
     return cover;
   }
@@ -176,16 +176,18 @@ class Blocks {
       if (!read) return read.findings();
       colours.rgba.resize(texels * 4);
       colours.byImage.resize(texels);
-      std::uint64_t covered = 0;
+      std::uint64_t covered = 0, first = 0;
       for (std::size_t t = 0; t < texels; ++t) {
         const std::uint8_t* from = &(*read)[t * 4];
         if (from[3] == 0) continue;
         ++covered;
         if (colours.byImage[t] != 0) continue;
         colours.byImage[t] = 1;
+        ++first;
         std::copy_n(from, 4, &colours.rgba[t * 4]);
       }
       covered_[i] += covered;
+      coveredByAny_ += first;
     }
     return colours;
   }
@@ -238,6 +240,7 @@ class Blocks {
   double texelsPerPost_ = 1;  ///< as they are made
   std::vector<std::unique_ptr<GroundImage>> images_;
   std::unique_ptr<GroundPaint> paint_;
+  mutable std::atomic<std::uint64_t> coveredByAny_{0};       ///< texels
   mutable std::vector<std::atomic<std::uint64_t>> covered_;  ///< texels, by image
 };
 
@@ -346,15 +349,17 @@ Result<Done> buildBlocks(const Blocks& blocks, std::span<const Place> places, st
 
 Findings aboutCover(std::span<const fs::path> images, const GroundCover& cover) {
   Findings notes;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const std::uint64_t without = cover.texels - cover.covered[i], percent = 100 * without / cover.texels;
-    if (without == cover.texels)
-      notes.push_back({Severity::error, images[i].string(), "georeference", "an image over the terrain",
-                       "none of its ground covered"});
-    else if (without > 0)
-      notes.push_back({Severity::note, images[i].string(), "georeference", "an image over the whole terrain",
-                       (percent == 0 ? "less than 1" : std::to_string(percent)) + " % of it without"});
-  }
+  if (images.empty()) return notes;
+  for (std::size_t i = 0; i < images.size(); ++i)
+    if (cover.covered[i] == 0)
+      notes.push_back({cover.coveredByAny == 0 ? Severity::error : Severity::note, images[i].string(),
+                       "georeference", "an image over the terrain", "none of its ground covered"});
+  const std::uint64_t without = cover.texels - cover.coveredByAny, percent = 100 * without / cover.texels;
+  if (without > 0 && cover.coveredByAny > 0)
+    notes.push_back({Severity::note,
+                     images.size() == 1 ? images[0].string() : std::to_string(images.size()) + " images",
+                     "georeference", "an image over the whole terrain",
+                     (percent == 0 ? "less than 1" : std::to_string(percent)) + " % of it without"});
   return notes;
 }
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
 #include "trimtab/terrain/elevation/georeference.h"
 
@@ -15,15 +17,53 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What a band that is marked as alpha really holds.
+enum class Alpha { none, mask, other };
+
 /// A raster as red, green, blue and alpha where it has one, opened for one thread.
 struct Picture {
   PlacedRaster file;
   Dataset bands = owned(nullptr);  ///< over the file's, where those are not in order
+  Alpha alpha = Alpha::none;
 
   GDALDataset& data() const { return bands ? *bands : *file.data; }
 };
 
-std::vector<std::string> wordsFor(GDALDataset& data) {
+/// Tells a mask from another band, such as infrared, that a program marked as alpha because it came fourth. A
+/// mask is nearly everywhere 0 or 255; only its edges are between. Looks at blocks all over the band.
+Result<Alpha> alphaOf(GDALDataset& data, const fs::path& file, const GdalErrors& errors) {
+  GDALRasterBand* alpha = nullptr;
+  for (int b = 1; b <= data.GetRasterCount(); ++b)
+    if (data.GetRasterBand(b)->GetColorInterpretation() == GCI_AlphaBand) alpha = data.GetRasterBand(b);
+  if (alpha == nullptr) return Alpha::none;
+  constexpr int kLooks = 8;
+  constexpr std::size_t kMostBetween = 4;  // one pixel in so many
+  int wide = 1, high = 1;
+  alpha->GetBlockSize(&wide, &high);
+  std::vector<std::uint8_t> block(static_cast<std::size_t>(wide) * static_cast<std::size_t>(high));
+  std::size_t pixels = 0, between = 0;
+  const int across = (alpha->GetXSize() - 1) / wide + 1, down = (alpha->GetYSize() - 1) / high + 1;
+  for (int j = 0; j < std::min(kLooks, down); ++j)
+    for (int i = 0; i < std::min(kLooks, across); ++i) {
+      const int x = static_cast<int>(std::int64_t{across} * i / std::min(kLooks, across)),
+                y = static_cast<int>(std::int64_t{down} * j / std::min(kLooks, down));
+      if (alpha->ReadBlock(x, y, block.data()) != CE_None)
+        return about(Severity::error, file, "alpha", "an image that can be read",
+                     errors.last("GDAL gives no reason"));
+      const int columns = std::min(wide, alpha->GetXSize() - x * wide),
+                rows = std::min(high, alpha->GetYSize() - y * high);
+      for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < columns; ++c) {
+          const std::uint8_t a = block[static_cast<std::size_t>(r) * static_cast<std::size_t>(wide) +
+                                       static_cast<std::size_t>(c)];
+          ++pixels;
+          if (a != 0 && a != 255) ++between;
+        }
+    }
+  return kMostBetween * between > pixels ? Alpha::other : Alpha::mask;
+}
+
+std::vector<std::string> wordsFor(GDALDataset& data, Alpha alpha) {
   GDALRasterBand& first = *data.GetRasterBand(1);
   // Colours of a palette cannot be mixed as numbers: they become colours first.
   if (first.GetColorTable() != nullptr) return {"-b", "1", "-expand", "rgba"};
@@ -49,6 +89,7 @@ std::vector<std::string> wordsFor(GDALDataset& data) {
     const int last = band[3] == 0 ? count : count - 1;
     for (int k = 0; k < 3; ++k) band[static_cast<std::size_t>(k)] = last >= 3 ? k + 1 : 1;
   }
+  if (alpha == Alpha::other) band[3] = 0;
   const bool inOrder = band[0] == 1 && band[1] == 2 && band[2] == 3 && (band[3] == 0 || band[3] == 4) &&
                        count == (band[3] == 0 ? 3 : 4);
   if (inOrder) return {};
@@ -72,7 +113,9 @@ Dataset inOrder(GDALDataset& data, std::vector<std::string> words) {
   return owned(GDALDataset::FromHandle(result));
 }
 
-Result<std::unique_ptr<Picture>> openPicture(const fs::path& file, GdalErrors& errors) {
+/// `known`: what its alpha is, if it was opened before.
+Result<std::unique_ptr<Picture>> openPicture(const fs::path& file, GdalErrors& errors,
+                                             std::optional<Alpha> known = {}) {
   auto opened = openRaster(file, errors);
   if (!opened) return opened.findings();
   auto picture = std::make_unique<Picture>(Picture{std::move(opened).value()});
@@ -81,13 +124,23 @@ Result<std::unique_ptr<Picture>> openPicture(const fs::path& file, GdalErrors& e
     if (const GDALDataType type = data.GetRasterBand(b)->GetRasterDataType(); type != GDT_Byte)
       return about(Severity::error, file, "band " + std::to_string(b), "bytes of red, green and blue",
                    GDALGetDataTypeName(type));
-  if (const auto words = wordsFor(data); !words.empty()) {
+  Findings notes = opened.findings();
+  if (!known) {
+    const auto alpha = alphaOf(data, file, errors);
+    if (!alpha) return alpha.findings();
+    known = *alpha;
+    if (*alpha == Alpha::other)
+      notes.push_back(about(Severity::note, file, "alpha", "a mask of 0 and 255 in the band marked as alpha",
+                            "values between, as of infrared: this band is left out"));
+  }
+  picture->alpha = *known;
+  if (const auto words = wordsFor(data, *known); !words.empty()) {
     picture->bands = inOrder(data, words);
     if (!picture->bands)
       return about(Severity::error, file, "", "bands of red, green and blue",
                    errors.last("GDAL gives no reason"));
   }
-  return Result<std::unique_ptr<Picture>>(std::move(picture), opened.findings());
+  return Result<std::unique_ptr<Picture>>(std::move(picture), std::move(notes));
 }
 
 /// Degrees; longitudes on one side of the earth.
@@ -149,9 +202,13 @@ class File final : public GroundImage {
   File(fs::path file, std::unique_ptr<Picture> first)
       : file_(std::move(file)),
         outline_(outlineOf(first->file)),
-        geographic_(first->file.crs.IsGeographic() != 0) {
-    idle_.push_back(std::move(first));
+        geographic_(first->file.crs.IsGeographic() != 0),
+        alpha_(first->alpha) {
+    giveBack(std::move(first));
   }
+  ~File() override { open_ -= idle_.size(); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
 
   double stepDegrees() const override { return outline_.step; }
   bool touches(const PostGrid& posts) const override { return !turns(posts).empty(); }
@@ -168,12 +225,21 @@ class File final : public GroundImage {
       turned.west += turn;
       if (auto done = readTurned(**picture, turned, errors, rgba); !done) return done.findings();
     }
-    const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(picture).value());
+    giveBack(std::move(picture).value());
     return rgba;
   }
 
  private:
+  /// Of a folder of images, more than systems let a program have open are opened again when they are needed.
+  static constexpr std::size_t kMostOpen = 128;
+
+  void giveBack(std::unique_ptr<Picture> picture) const {
+    if (open_ >= kMostOpen) return;
+    ++open_;
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(picture));
+  }
+
   /// Returns by how many degrees posts must be turned about the earth to meet the image: several turns if
   /// they meet both of its ends.
   std::vector<double> turns(const PostGrid& posts) const {
@@ -196,10 +262,11 @@ class File final : public GroundImage {
       if (!idle_.empty()) {
         auto picture = std::move(idle_.back());
         idle_.pop_back();
+        --open_;
         return picture;
       }
     }
-    return openPicture(file_, errors);
+    return openPicture(file_, errors, alpha_);
   }
 
   Result<Done> readTurned(Picture& picture, const PostGrid& posts, GdalErrors& errors,
@@ -235,6 +302,8 @@ class File final : public GroundImage {
   fs::path file_;
   Outline outline_;
   bool geographic_;
+  Alpha alpha_;
+  static inline std::atomic<std::size_t> open_ = 0;  ///< idle pictures of all files
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Picture>> idle_;
 };

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "triangles.h"
-#include "trimtab/units/number.h"
 #include "trimtab/terrain/scenery/lines.h"
 #include "trimtab/terrain/scenery/scenery.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
 
@@ -399,10 +399,11 @@ Result<SceneryMesh> BtgReader::read() {
     return findings_;
   }
   mesh_.version = static_cast<int>(*header & 0xffff);
-  if (mesh_.version != 7 && mesh_.version != 10) {
-    refuse(0, "version", "7 or 10", std::to_string(mesh_.version));
+  if (mesh_.version != 6 && mesh_.version != 7 && mesh_.version != 10) {
+    refuse(0, "version", "6, 7 or 10", std::to_string(mesh_.version));
     return findings_;
   }
+  // Version 6 has the layout of 7.
   wide_ = mesh_.version == 10;
   if (!take<std::uint32_t>("creation time")) return findings_;
   const auto objects = takeCount("number of objects");

@@ -90,7 +90,7 @@ Result<std::unique_ptr<SceneryCatalogue>> SceneryCatalogue::open(std::span<const
   // A few at a time: what does not stay is gone before the next are read.
   constexpr std::size_t kTogether = 8;
   std::set<std::string> names;
-  bool broken = false;
+  std::size_t broken = 0;
   for (std::size_t from = 0; from < files.size(); from += kTogether) {
     const std::size_t some = std::min(kTogether, files.size() - from);
     std::vector<Result<SceneryMesh>> read(some, Result<SceneryMesh>(Findings{}));
@@ -104,15 +104,26 @@ Result<std::unique_ptr<SceneryCatalogue>> SceneryCatalogue::open(std::span<const
             [&](std::uint32_t i) { read[i] = readBtg(files[from + i].path); }, carryOn))
       return cancelled("reading scenery");
     for (std::size_t i = 0; i < some; ++i) {
-      findings.insert(findings.end(), read[i].findings().begin(), read[i].findings().end());
-      broken = broken || !read[i];
-      if (broken || !names.insert(read[i]->name).second) continue;
+      // A tile that cannot be read leaves a gap, which is filled as one without a file is.
+      for (Finding finding : read[i].findings()) {
+        if (!read[i] && finding.severity == Severity::error && files.size() > 1) {
+          finding.severity = Severity::warning;
+          finding.found += ": this tile is left out, its ground is filled in from what is beside it";
+        }
+        findings.push_back(std::move(finding));
+      }
+      if (!read[i]) ++broken;
+      if (!read[i] || !names.insert(read[i]->name).second) continue;
       SceneryMesh mesh = std::move(*read[i]);
       mesh.airport = files[from + i].airport;
       all->enter(files[from + i].path, {}, std::move(mesh));
     }
   }
-  if (broken) return findings;
+  if (broken > 0 && broken == files.size()) {
+    if (!hasError(findings))
+      findings.push_back({Severity::error, "scenery", "tiles", "a tile that can be read", "none"});
+    return findings;
+  }
   return Result<std::unique_ptr<SceneryCatalogue>>(std::move(all), std::move(findings));
 }
 

@@ -126,18 +126,19 @@ Result<Done> SceneryHeights::findSea(const Progress& progress) {
 }
 
 Result<Done> SceneryHeights::readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
-                                      std::span<std::uint8_t> beyond) {
+                                      std::span<std::uint8_t> beyond, std::span<std::uint16_t> from) {
+  std::fill(from.begin(), from.end(), kNoSource);
   reached_.resize(heights.size());
   if (auto read = readSources(first, rows, heights, reached_); !read) return read;
   std::fill(beyond.begin(), beyond.end(), std::uint8_t{0});
   if (!sea_) return Done{};
   for (std::uint32_t row = 0; row < rows; ++row)
     for (const OpenSea::Stretch& stretch : sea_->stretches(first + row)) {
-      const auto from = static_cast<std::ptrdiff_t>(std::size_t{row} * posts().columns);
+      const auto start = static_cast<std::ptrdiff_t>(std::size_t{row} * posts().columns);
       if (sea_->isSea(stretch))
-        std::fill(heights.begin() + from + stretch.first, heights.begin() + from + stretch.end, 0.0f);
+        std::fill(heights.begin() + start + stretch.first, heights.begin() + start + stretch.end, 0.0f);
       else if (!beyond.empty())
-        std::fill(beyond.begin() + from + stretch.first, beyond.begin() + from + stretch.end,
+        std::fill(beyond.begin() + start + stretch.first, beyond.begin() + start + stretch.end,
                   std::uint8_t{1});
     }
   return Done{};

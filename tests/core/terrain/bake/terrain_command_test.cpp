@@ -88,6 +88,62 @@ TEST_F(TerrainCommand, bakesACountryInPartsAndChecksIt) {
   EXPECT_NE(damaged.err.find("heights.f32: rows 0 to"), std::string::npos) << damaged.err;
 }
 
+TEST_F(TerrainCommand, answersHeightsWithTheirFileAndError) {
+  // South of the equator and west of Greenwich: a plane that rises to the east.
+  std::string rows = "ncols 40\nnrows 30\nxllcorner -70.05\nyllcorner -33.3\ncellsize 0.01\n";
+  for (int i = 0; i < 40 * 30; ++i) rows += std::to_string(i % 40 * 10) + (i % 40 == 39 ? '\n' : ' ');
+  test::writeFile(dir_ / "plane.asc", rows);
+  test::writeFile(dir_ / "plane.prj",
+                  R"(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+                  R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]])");
+  const auto baked = test::run(cli("bake " + at("plane.asc") + " -o " + at("db")));
+  ASSERT_EQ(baked.exitCode, 0) << baked.err;
+  const auto asked = test::run(cli("height " + at("db") + " -33.175 -69.9 -33.1 -69.875 --json"));
+  ASSERT_EQ(asked.exitCode, 0) << asked.err;
+  const auto json = nlohmann::json::parse(asked.out);
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_EQ(json[0]["latitude_deg"], -33.175);
+  EXPECT_NEAR(json[0]["height_m"].get<double>(), 145, 1e-3);
+  EXPECT_NEAR(json[1]["height_m"].get<double>(), 170, 1e-3);
+  EXPECT_EQ(json[0]["source"], at("plane.asc"));
+  EXPECT_GT(json[0]["error_m"], 0);
+  test::writeFile(dir_ / "points.csv", "id,lon,lat\n1,-69.9,-33.175\n2,0,0\n");
+  const auto table = test::run(cli("height " + at("db") + " --csv " + at("points.csv")));
+  EXPECT_EQ(table.exitCode, 1);
+  EXPECT_NE(table.out.find("latitude_deg,longitude_deg,height_m,error_m,source\n-33.175,-69.9,145,"),
+            std::string::npos)
+      << table.out;
+  EXPECT_NE(table.out.find("\n0,0,,,\n"), std::string::npos) << table.out;
+  EXPECT_NE(table.err.find("points.csv:3"), std::string::npos) << table.err;
+  for (const char* wrong : {"", " 1", " 1 2 3", " 91 3", " 3 400"})
+    EXPECT_EQ(test::run(cli("height " + at("db") + wrong)).exitCode, 2) << wrong;
+}
+
+TEST_F(TerrainCommand, asksForTheUnitOfHeightsAndTakesIt) {
+  std::string rows = "ncols 40\nnrows 40\nxllcorner 1000000\nyllcorner 200000\ncellsize 100\n";
+  for (int i = 0; i < 40 * 40; ++i) rows += std::string("900") + (i % 40 == 39 ? '\n' : ' ');
+  test::writeFile(dir_ / "feet.asc", rows);
+  test::writeFile(
+      dir_ / "feet.prj",
+      R"(PROJCS["NAD_1983_StatePlane_New_York_Long_Island_FIPS_3104_Feet",GEOGCS["GCS_North_American_1983",)"
+      R"(DATUM["D_North_American_1983",SPHEROID["GRS_1980",6378137.0,298.257222101]],PRIMEM["Greenwich",0.0],)"
+      R"(UNIT["Degree",0.0174532925199433]],PROJECTION["Lambert_Conformal_Conic"],)"
+      R"(PARAMETER["False_Easting",984250.0],PARAMETER["False_Northing",0.0],)"
+      R"(PARAMETER["Central_Meridian",-74.0],PARAMETER["Standard_Parallel_1",40.66666666666666],)"
+      R"(PARAMETER["Standard_Parallel_2",41.03333333333333],PARAMETER["Latitude_Of_Origin",40.16666666666666],)"
+      R"(UNIT["Foot_US",0.3048006096012192]])");
+  const std::string bake = "bake " + at("feet.asc") + " -o " + at("db");
+  const auto asked = test::run(cli(bake));
+  EXPECT_EQ(asked.exitCode, 1);
+  EXPECT_NE(asked.err.find("--height-unit"), std::string::npos) << asked.err;
+  EXPECT_EQ(test::run(cli(bake + " --height-unit cubit")).exitCode, 2);
+  const auto told = test::run(cli(bake + " --height-unit us_survey_foot"));
+  ASSERT_EQ(told.exitCode, 0) << told.err;
+  EXPECT_EQ(told.err.find("warning"), std::string::npos) << told.err;
+  const auto info = nlohmann::json::parse(test::run(cli("info " + at("db") + " --json")).out);
+  EXPECT_NEAR(info["highest_m"].get<double>(), 900 * 1200.0 / 3937, 1e-3);
+}
+
 TEST_F(TerrainCommand, keepsTheColumnsOfTheWholeEarthApart) {
   std::string rows = "ncols 361\nnrows 181\nxllcenter -180\nyllcenter -90\ncellsize 1\n";
   for (int i = 0; i < 361 * 181; ++i) rows += std::to_string(i * 7 % 500) + (i % 361 == 360 ? '\n' : ' ');

@@ -77,5 +77,27 @@ TEST_F(ElevationSample, isTheMeanOfAllWhereTheFootprintIsHuge) {
     EXPECT_EQ(meanAbout(window_, 2, 2, size, size), 70);
 }
 
+TEST(ElevationCliff, castsNoTrenchIntoTheSeaAndNoCrestOverTheLand) {
+  // Sea in the west, a cliff of 160 m, and a plateau that rises a little.
+  constexpr std::int64_t kSide = 8;
+  std::vector<float> heights;
+  for (int r = 0; r < kSide; ++r)
+    for (int c = 0; c < kSide; ++c) heights.push_back(c < 4 ? 0.0f : 160.0f + static_cast<float>(c));
+  const RasterWindow window{0, 0, kSide, kSide, heights};
+  for (double x = 2; x <= 5; x += 0.05)
+    for (const double y : {2.0, 3.3}) {
+      const float between = heightBetween(window, kSide, kSide, x, y),
+                  along = meanAlong(window, false, kSide, kSide, x, y, 3);
+      for (const float height : {between, along}) {
+        EXPECT_GE(height, 0) << x;
+        EXPECT_LE(height, 167) << x;
+      }
+    }
+  // Between the last posts of the sea there is sea.
+  EXPECT_EQ(heightBetween(window, kSide, kSide, 2.7, 3.3), 0);
+  // Beyond the border the slope goes on.
+  EXPECT_NEAR(heightBetween(window, kSide, kSide, 7.5, 3.3), 167.5, 1e-4);
+}
+
 }  // namespace
 }  // namespace trimtab::terrain

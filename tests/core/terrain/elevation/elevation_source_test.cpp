@@ -174,26 +174,45 @@ TEST_F(Elevation, isKnownBeyondTheEdgeOfACylinder) {
       mercator.columns = 90, mercator.step = 2 * kEdge / 60, mercator.rows = 2, mercator.north = 1e6;
       mercator.west = -1.5 * kEdge;
       const fs::path wide = test::write(dir_ / "wide.tif", mercator);
-      const auto refused = openElevation(std::span(&wide, 1));
-      ASSERT_FALSE(refused);
-      EXPECT_NE(toString(refused.findings()).find("534 degrees"), std::string::npos)
-          << toString(refused.findings());
+      const auto once = openElevation(std::span(&wide, 1));
+      ASSERT_TRUE(once) << toString(once.findings());
+      EXPECT_NE(toString(once.findings()).find("29 columns more, from column 61"), std::string::npos)
+          << toString(once.findings());
+      EXPECT_LE(((*once)->posts().columns - 1) * (*once)->posts().stepLongitude, 360 + 1e-6);
     }
 }
 
-TEST_F(Elevation, refusesARasterThatIsWiderThanTheEarth) {
+TEST_F(Elevation, leavesOutColumnsThatRepeatTheFirst) {
   test::RasterRecipe recipe;
   recipe.west = -180.5, recipe.north = 10, recipe.step = 1, recipe.rows = 20;
-  for (const auto& [columns, opens] : {std::pair{361, true}, {362, false}, {800, false}}) {
+  recipe.value = [](int c, int r, int) { return 10 * (c % 360) + r; };
+  for (const int columns : {361, 362, 800}) {
     recipe.columns = columns;
     const fs::path file = test::writeRaster(dir_ / "wide.tif", recipe);
     const auto opened = openElevation(std::span(&file, 1));
-    ASSERT_EQ(opened.ok(), opens) << columns;
-    if (opens) continue;
+    ASSERT_TRUE(opened) << toString(opened.findings());
+    const PostGrid& posts = (*opened)->posts();
+    ASSERT_EQ(posts.columns, 361u);
+    std::vector<float> row(posts.columns);
+    ASSERT_TRUE((*opened)->readRows(0, 1, row));
+    for (int c = 0; c < 361; ++c) ASSERT_EQ(row[static_cast<std::size_t>(c)], 10 * (c % 360) + 19) << c;
     const std::string text = toString(opened.findings());
-    for (const std::string& word : {file.string(), std::string("longitude"), std::string("360 degrees"),
-                                    std::to_string(columns - 1) + " degrees"})
-      EXPECT_NE(text.find(word), std::string::npos) << text;
+    const std::string said = std::to_string(columns - 361) + " columns more, from column 361";
+    EXPECT_EQ(text.find(said) != std::string::npos, columns > 361) << text;
+  }
+}
+
+TEST_F(Elevation, inAnOrdinaryProjectionIsReadWithoutAWarning) {
+  for (const auto& [crs, x, y] : {std::tuple{"EPSG:2154", 700000.0, 6600000.0},
+                                  {"EPSG:32118", 300000.0, 60000.0},
+                                  {"EPSG:2263", 1000000.0, 200000.0}}) {
+    test::RasterRecipe recipe;
+    recipe.crs = crs, recipe.west = x, recipe.north = y, recipe.step = 30;
+    recipe.unit = "m";
+    const fs::path file = test::writeRaster(dir_ / "projected.tif", recipe);
+    const auto opened = openElevation(std::span(&file, 1));
+    ASSERT_TRUE(opened) << toString(opened.findings());
+    EXPECT_TRUE(opened.findings().empty()) << crs << toString(opened.findings());
   }
 }
 

@@ -33,12 +33,16 @@ std::multiset<Corners> cornersOf(const SceneryMesh& mesh) {
   return all;
 }
 
-TEST(Btg, readsBothVersionsAlike) {
+TEST(Btg, readsAllVersionsAlike) {
   TileRecipe recipe;
   recipe.heightM = [](double lon, double lat) { return 200 + 3000 * (lon - 7) + 1000 * (lat - 50.5); };
   const auto narrow = parse(test::gridTile(recipe));
   recipe.version = 10;
   const auto wide = parse(test::gridTile(recipe));
+  recipe.version = 6;
+  const auto old = parse(test::gridTile(recipe));
+  ASSERT_TRUE(old) << toString(old.findings());
+  EXPECT_EQ(old->version, 6);
   ASSERT_TRUE(narrow && wide) << toString(narrow.findings()) << toString(wide.findings());
   EXPECT_EQ(narrow->version, 7);
   EXPECT_EQ(wide->version, 10);
@@ -47,6 +51,7 @@ TEST(Btg, readsBothVersionsAlike) {
   EXPECT_EQ(narrow->triangles.size(), 32U);
   EXPECT_EQ(narrow->materials, (std::vector<std::string>{"Lake", "EvergreenForest"}));
   EXPECT_EQ(cornersOf(*narrow), cornersOf(*wide));
+  EXPECT_EQ(cornersOf(*narrow), cornersOf(*old));
   const GeodeticPosition corner = toGeodetic(narrow->vertices[0]);
   EXPECT_NEAR(corner.latitude.value(), 50.5, 1e-7);
   EXPECT_NEAR(corner.longitude.value(), 7, 1e-7);
@@ -208,7 +213,7 @@ TEST(Btg, saysWhereAFileIsWrongAndWhatItExpected) {
   const Bad table[] = {
       {"empty", "", ":0", "magic number"},
       {"other magic", changed(2, "XX"), ":0", "magic number"},
-      {"version 6", changed(0, "\x06"), ":0", "version"},
+      {"version 5", changed(0, "\x05"), ":0", "version"},
       {"version 9", changed(0, "\x09"), ":0", "version"},
       {"ends in the header", good.substr(0, 9), ":8", "number of objects"},
       {"ends in an element", good.substr(0, 60), ":52", "element length"},

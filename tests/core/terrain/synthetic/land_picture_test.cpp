@@ -33,7 +33,7 @@ class LandPicture : public ::testing::Test {
     EXPECT_TRUE(done) << toString(done.findings());
     auto land = test::readElevation(land_);
     EXPECT_TRUE(land) << toString(land.findings());
-    auto seen = readImagery(picture_, land->posts, nullptr);
+    auto seen = readImagery(std::span(&picture_, 1), land->posts, nullptr);
     EXPECT_TRUE(seen) << toString(seen.findings());
     return {std::move(land).value(), std::move(seen).value()};
   }
@@ -144,7 +144,7 @@ TEST_F(LandPicture, takesVoidsForSea) {
   PostGrid posts;
   posts.west = 10.01, posts.south = 49.97, posts.stepLongitude = 0.04, posts.stepLatitude = 0.01;
   posts.columns = 2, posts.rows = 2;
-  const auto rgba = readImagery(picture_, posts, nullptr);
+  const auto rgba = readImagery(std::span(&picture_, 1), posts, nullptr);
   ASSERT_TRUE(rgba);
   EXPECT_GT((*rgba)[2], (*rgba)[0]) << "west: sea";
   EXPECT_GT((*rgba)[5], (*rgba)[6]) << "east: land";

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "trimtab/terrain/elevation/source.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/grid/progress.h"
 #include "trimtab/units/quantity.h"
@@ -14,9 +15,10 @@
 namespace trimtab::terrain {
 
 struct BakeOptions {
-  std::vector<std::filesystem::path> sources;  ///< elevation files, folders of them, or scenery
-  std::optional<std::filesystem::path> imagery;
-  std::uint32_t trianglesPerNode = 2000;  ///< of the static LOD, if a source is scenery
+  std::vector<std::filesystem::path> sources;    ///< elevation files, folders of them, or scenery
+  std::optional<std::filesystem::path> imagery;  ///< a georeferenced image, or a folder of them
+  Reading reading;                               ///< how elevation files are read
+  std::uint32_t trianglesPerNode = 2000;         ///< of the static LOD, if a source is scenery
   bool keepLines = false;    ///< the static LOD keeps roads, streams and shorelines while they cover a pixel
   bool keepTexture = false;  ///< the static LOD keeps the scenery's texture coordinates
   std::optional<Metres>

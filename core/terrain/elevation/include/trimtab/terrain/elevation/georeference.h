@@ -23,12 +23,15 @@ struct PlacedRaster {
   Dataset data;
   std::array<double, 6> transform{};  ///< GDAL's: pixel corners to the CRS
   OGRSpatialReference crs;            ///< horizontal; axes as easting, northing or longitude, latitude
+  /// Columns that are used, from the first; all, unless the raster goes more than once round the earth.
+  int columns = 0;
 };
 
 /// Says what a raster is opened for; `heights` refuses images.
 enum class RasterKind { any, heights };
 /// Opens a raster and reads its georeference. If it names no CRS, degrees are assumed to be WGS84, with a
-/// note.
+/// note. Ground control points are used if they lie on a plane map within a quarter of a pixel; otherwise
+/// they are refused.
 Result<PlacedRaster> openRaster(const std::filesystem::path& file, GdalErrors& errors,
                                 RasterKind kind = RasterKind::any);
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "trimtab/terrain/grid/height_window.h"
+#include "trimtab/terrain/grid/no_source.h"
 #include "trimtab/terrain/grid/progress.h"
 
 namespace trimtab::terrain {
@@ -28,10 +29,11 @@ class ElevationSource {
   virtual const PostGrid& posts() const = 0;
   /// Reads rows [first, first + rows) of the merged grid, metres, NaN where no file has a height. If `beyond`
   /// is not empty, it gets 1 where no file reaches (the corners around a rotated raster) and 0 elsewhere,
-  /// also at voids. Only one thread may call this at a time. Read the rows in order: then each is read from
-  /// disk once.
+  /// also at voids. If `from` is not empty, it gets the number in names() of the file that gave each height
+  /// or most of it, and kNoSource where there is none or names() is empty. Only one thread may call this at a
+  /// time. Read the rows in order: then each is read from disk once.
   virtual Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
-                                std::span<std::uint8_t> beyond = {}) = 0;
+                                std::span<std::uint8_t> beyond = {}, std::span<std::uint16_t> from = {}) = 0;
   /// Returns the names of the files; an earlier file has precedence.
   virtual std::vector<std::string> names() const = 0;
   /// Returns, for each name, how many posts of the rows read so far have their height, or most of it, from
@@ -39,7 +41,16 @@ class ElevationSource {
   virtual std::vector<std::uint64_t> given() const = 0;
 };
 
+/// What the user says about files that do not say it themselves.
+struct Reading {
+  /// Metres per unit of heights in files that name no unit, or none that is known (metresPerUnit).
+  std::optional<double> heightUnit;
+  /// Read DTED whose profiles do not agree with their checksums, or have none; otherwise it is refused.
+  bool ignoreChecksums = false;
+};
+
 struct ElevationOptions {
+  Reading reading;
   /// Post spacing, degrees of latitude; if unset, that of the finest file. Finer files are averaged.
   std::optional<double> stepLatitude;
   Progress progress;

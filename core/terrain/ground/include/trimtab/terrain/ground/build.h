@@ -37,10 +37,11 @@ struct GroundSources {
 
 /// Counts how many of the finest texels each image covers.
 struct GroundCover {
-  std::uint64_t texels = 0;            ///< of the whole ground
+  std::uint64_t texels = 0;  ///< of the whole ground
+  std::uint64_t coveredByAny = 0;
   std::vector<std::uint64_t> covered;  ///< one count per image, for the whole ground or for a share
 };
-/// Reports images that leave ground uncovered; it is an error if an image covers none.
+/// Reports ground that no image covers, and images that cover none; it is an error if all cover none.
 Findings aboutCover(std::span<const std::filesystem::path> images, const GroundCover& cover);
 
 /// Builds a page file that openGround reads. Its bytes depend on the sources alone.

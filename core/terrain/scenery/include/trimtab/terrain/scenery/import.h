@@ -35,7 +35,7 @@ class SceneryHeights final : public ElevationSource {
 
   const PostGrid& posts() const override { return raster_.posts(); }
   Result<Done> readRows(std::uint32_t first, std::uint32_t rows, std::span<float> heights,
-                        std::span<std::uint8_t> beyond = {}) override;
+                        std::span<std::uint8_t> beyond = {}, std::span<std::uint16_t> from = {}) override;
   std::vector<std::string> names() const override { return {}; }
   std::vector<std::uint64_t> given() const override { return {}; }
   /// Returns the colours of all posts, RGBA. Alpha is 0 where there is no scenery: elevation has no colours.

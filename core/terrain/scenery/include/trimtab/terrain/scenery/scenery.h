@@ -11,7 +11,7 @@
 #include "trimtab/units/geodesy.h"
 #include "trimtab/units/result.h"
 
-/// Reads FlightGear scenery: tiles (`.btg`, `.btg.gz`, versions 7 and 10) and the lists that place them
+/// Reads FlightGear scenery: tiles (`.btg`, `.btg.gz`, versions 6, 7 and 10) and the lists that place them
 /// (`.stg`).
 namespace trimtab::terrain {
 
