@@ -118,19 +118,6 @@ Result<Report> runCulling(const Setup& setup) {
 
   Report report{"culling", "A, B: comparison of culling", (*stage)->machine(), publishedCulling(), {}, {},
                 {}};
-  report.measured.columns = {"altitude_ft",
-                             "case",
-                             "triangles",
-                             "vertices",
-                             "frame_ms",
-                             "fps",
-                             "triangles_ratio",
-                             "vertices_ratio",
-                             "frame_ms_ratio",
-                             "frame_ms_ratio_low",
-                             "frame_ms_ratio_high",
-                             "imagery",
-                             "differing_pixels"};
   const terrain::TerrainInfo& info = setup.terrain->info();
   const char* const imagery = !info.hasImage ? "no" : info.scenery ? "land cover" : "yes";
   for (std::size_t c = 0; c < kCases.size(); ++c)
@@ -138,11 +125,19 @@ Result<Report> runCulling(const Setup& setup) {
       const AltitudeSums &s = sums[a][c], &plain = sums[a][0];
       const double ms = quantileOf(s.ms, 0.5);
       const PairedRatio ofPlain = pairedRatio(plain.ms, s.ms);
-      report.measured.rows.push_back({kAltitudesFt[a], kCases[c].name, std::round(meanOf(s.triangles)),
-                                      std::round(meanOf(s.vertices)), ms, 1000 / ms,
-                                      meanOf(s.triangles) / meanOf(plain.triangles),
-                                      meanOf(s.vertices) / meanOf(plain.vertices), ofPlain.median,
-                                      ofPlain.low, ofPlain.high, imagery, s.differing});
+      report.measured.add({{"altitude_ft", kAltitudesFt[a]},
+                           {"case", kCases[c].name},
+                           {"triangles", std::round(meanOf(s.triangles))},
+                           {"vertices", std::round(meanOf(s.vertices))},
+                           {"frame_ms", ms},
+                           {"fps", 1000 / ms},
+                           {"triangles_ratio", meanOf(s.triangles) / meanOf(plain.triangles)},
+                           {"vertices_ratio", meanOf(s.vertices) / meanOf(plain.vertices)},
+                           {"frame_ms_ratio", ofPlain.median},
+                           {"frame_ms_ratio_low", ofPlain.low},
+                           {"frame_ms_ratio_high", ofPlain.high},
+                           {"imagery", imagery},
+                           {"differing_pixels", s.differing}});
     }
   char text[256];
   std::snprintf(

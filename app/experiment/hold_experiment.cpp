@@ -95,29 +95,30 @@ void addRow(Table& table, const Strain& strain, const std::string& mode, double 
   const double slowest = quantileOf(ofStrain(off.ms, strain), 1) / quantileOf(ms, 1);
   const Settling settling = settlingOf(run, strain);
   const double limit = quantileOf(ofStrain(run.limitMs, strain), 0.5);
-  table.rows.push_back({strain.name,
-                        mode,
-                        budgetMs,
-                        quantileOf(ms, 0.5),
-                        quantileOf(ms, 0.95),
-                        quantileOf(ms, 0.99),
-                        quantileOf(ms, 1),
-                        slowest,
-                        quantileOf(ms, 0.99) / budgetMs,
-                        over(1.1),
-                        flipOf(run, &ExposedError::sharp),
-                        flipOf(run, &ExposedError::smeared),
-                        double(changed.size()),
-                        double(mostInASecond(changed, strain)),
-                        *std::min_element(run.particles.begin(), run.particles.end()),
-                        orNone(triangles, triangles.empty() ? 0 : quantileOf(triangles, 0.5)),
-                        orNone(times, times.empty() ? 0 : quantileOf(times, 0.5)),
-                        orNone(times, times.empty() ? 0 : covered / double(times.size())),
-                        run.lookMs,
-                        std::isnan(settling.ms) ? Cell() : Cell(settling.ms),
-                        std::isnan(settling.ms) ? Cell() : Cell(settling.slowestOverMedian),
-                        limit > 0 ? Cell(limit / budgetMs) : Cell(),
-                        quantileOf(ms, 0.99) / heldP99Ms});
+  table.add(
+      {{"strain", strain.name},
+       {"mode", mode},
+       {"budget_ms", budgetMs},
+       {"frame_ms_median", quantileOf(ms, 0.5)},
+       {"frame_ms_p95", quantileOf(ms, 0.95)},
+       {"frame_ms_p99", quantileOf(ms, 0.99)},
+       {"frame_ms_max", quantileOf(ms, 1)},
+       {"slowest_gain", slowest},
+       {"p99_over_budget", quantileOf(ms, 0.99) / budgetMs},
+       {"share_over_1_1", over(1.1)},
+       {"flip_mean", flipOf(run, &ExposedError::sharp)},
+       {"flip_smeared", flipOf(run, &ExposedError::smeared)},
+       {"lod_changes", double(changed.size())},
+       {"lod_changes_in_1s", double(mostInASecond(changed, strain))},
+       {"particles_kept", *std::min_element(run.particles.begin(), run.particles.end())},
+       {"triangles_error", orNone(triangles, triangles.empty() ? 0 : quantileOf(triangles, 0.5))},
+       {"ms_error", orNone(times, times.empty() ? 0 : quantileOf(times, 0.5))},
+       {"band_coverage", orNone(times, times.empty() ? 0 : covered / double(times.size()))},
+       {"request_ms", run.lookMs},
+       {"settled_ms", std::isnan(settling.ms) ? Cell() : Cell(settling.ms)},
+       {"settling_max_over_median", std::isnan(settling.ms) ? Cell() : Cell(settling.slowestOverMedian)},
+       {"limit_over_budget", limit > 0 ? Cell(limit / budgetMs) : Cell()},
+       {"p99_over_hold", quantileOf(ms, 0.99) / heldP99Ms}});
 }
 
 /// Plots one number of each image over the strain, one line for each mode.
@@ -317,29 +318,6 @@ Result<Report> runHold(const Setup& setup) {
   const auto referee = Referee::open(setup);
   if (!referee) return referee.findings();
   Report report{"hold", "C, D: what is left open", stages[0]->machine(), {}, {}, {}, {}};
-  report.measured.columns = {"strain",
-                             "mode",
-                             "budget_ms",
-                             "frame_ms_median",
-                             "frame_ms_p95",
-                             "frame_ms_p99",
-                             "frame_ms_max",
-                             "slowest_gain",
-                             "p99_over_budget",
-                             "share_over_1_1",
-                             "flip_mean",
-                             "flip_smeared",
-                             "lod_changes",
-                             "lod_changes_in_1s",
-                             "particles_kept",
-                             "triangles_error",
-                             "ms_error",
-                             "band_coverage",
-                             "request_ms",
-                             "settled_ms",
-                             "settling_max_over_median",
-                             "limit_over_budget",
-                             "p99_over_hold"};
   const Result<std::vector<Strain>> strains = strainsOf(setup, report.notes);
   if (!strains) return strains.findings();
   const auto first = learned({stages, **referee, setup, [&](double, const std::string& what) {

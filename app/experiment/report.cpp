@@ -101,6 +101,15 @@ void appendTable(std::string& text, const Table& table) {
 
 }  // namespace
 
+void Table::add(const std::vector<std::pair<const char*, Cell>>& row) {
+  const bool first = rows.empty();
+  rows.emplace_back();
+  for (const auto& [name, cell] : row) {
+    if (first) columns.emplace_back(name);
+    rows.back().push_back(cell);
+  }
+}
+
 double Table::number(std::size_t row, std::string_view column) const {
   const auto at = std::find(columns.begin(), columns.end(), column);
   const double* value = at == columns.end()

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,6 +18,10 @@ using Cell = std::variant<std::monostate, double, std::string>;
 struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<Cell>> rows;  ///< each as long as `columns`
+
+  /// Adds a row by the names of its cells. The first row gives the columns; every other has the same, in the
+  /// same order.
+  void add(const std::vector<std::pair<const char*, Cell>>& row);
 
   /// Returns the number in a column by its name; NaN if the cell has none.
   double number(std::size_t row, std::string_view column) const;

@@ -60,20 +60,6 @@ Result<Report> runWeatherProtocol(const Setup& setup) {
                 {},
                 {},
                 {}};
-  report.measured.columns = {"calibrated_at",
-                             "applied_at",
-                             "vertices",
-                             "precipitation",
-                             "density",
-                             "particles",
-                             "far_km",
-                             "fps_clear",
-                             "fps",
-                             "frame_ms_ratio",
-                             "frame_ms_ratio_low",
-                             "frame_ms_ratio_high",
-                             "result",
-                             "calibration"};
   const double runs = 12 + 24;  // calibrations, and rows
   double done = 0;
   char what[120];
@@ -122,11 +108,20 @@ Result<Report> runWeatherProtocol(const Setup& setup) {
         view.setError(views[trial.appliedAt].first);
         const std::vector<std::vector<double>> ms = view.inTurns(std::array{WeatherDecision{}, weather});
         const PairedRatio ofClear = pairedRatio(ms[0], ms[1]);
-        report.measured.rows.push_back({trial.calibratedAt, trial.appliedAt, views[trial.appliedAt].second,
-                                        fall.name, kDensities[d], weather.density, weather.farM / 1000,
-                                        1000 / quantileOf(ms[0], 0.5), 1000 / quantileOf(ms[1], 0.5),
-                                        ofClear.median, ofClear.low, ofClear.high,
-                                        resultOf(ofClear, tolerance), std::string(toText(found.outcome))});
+        report.measured.add({{"calibrated_at", trial.calibratedAt},
+                             {"applied_at", trial.appliedAt},
+                             {"vertices", views[trial.appliedAt].second},
+                             {"precipitation", fall.name},
+                             {"density", kDensities[d]},
+                             {"particles", weather.density},
+                             {"far_km", weather.farM / 1000},
+                             {"fps_clear", 1000 / quantileOf(ms[0], 0.5)},
+                             {"fps", 1000 / quantileOf(ms[1], 0.5)},
+                             {"frame_ms_ratio", ofClear.median},
+                             {"frame_ms_ratio_low", ofClear.low},
+                             {"frame_ms_ratio_high", ofClear.high},
+                             {"result", resultOf(ofClear, tolerance)},
+                             {"calibration", std::string(toText(found.outcome))}});
       }
   char text[520];
   std::snprintf(
