@@ -11,6 +11,7 @@
 #include "mapped_heights.h"
 #include "patches.h"
 #include "source.h"
+#include "stages.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/format/patch_layout.h"
@@ -98,12 +99,8 @@ class Job {
     return Result<Done>(Done{}, findings_);
   }
 
-  /// Scenery's trees take three quarters of the time, where there are any.
-  Progress stage(double from, double to) const {
-    return [this, from, to](double fraction, const std::string& what) {
-      return !options_.progress ||
-             options_.progress(from + (to - from) * std::clamp(fraction, 0.0, 1.0), what);
-    };
+  Progress stage(Stage stage, double from = 0, double to = 1) const {
+    return progressOf(options_.progress, scenery_ ? kSceneryShares : kElevationShares, stage, from, to);
   }
   void keep(const Findings& findings) { findings_.insert(findings_.end(), findings.begin(), findings.end()); }
   Result<Done> kept(Result<Done> done) {
@@ -132,7 +129,7 @@ class Job {
     // This is asked before other parts of the same bake come to write there.
     goesOn_ = work_->resumed() && !work_->journal().empty();
     scenery_ = std::any_of(options_.sources.begin(), options_.sources.end(), isScenery);
-    auto source = readSource(options_, memory_, stage(0, scenery_ ? 0.1 : 0.2));
+    auto source = readSource(options_, memory_, stage(Stage::source));
     if (!source) return source.findings();
     keep(source.findings());
     source_ = std::move(source).value();
@@ -146,12 +143,12 @@ class Job {
     while (!(turn = FileLock::tryLock(turnFile, false))) {
       if (const int reason = errno; reason != EWOULDBLOCK)
         return refused(turnFile, "a file that can be locked", std::strerror(reason));
-      if (!stage(0.1, 0.2)(0, "waiting for the part that reads the heights")) return cancelled("waiting");
+      if (!stage(Stage::heights)(0, "waiting for the part that reads the heights"))
+        return cancelled("waiting");
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
     if (auto same = keepToPosts(use); !same) return same;
-    auto heights =
-        bakeHeights(*work_, *source_->elevation, memory_, stage(scenery_ ? 0.1 : 0.2, scenery_ ? 0.13 : 0.3));
+    auto heights = bakeHeights(*work_, *source_->elevation, memory_, stage(Stage::heights));
     if (!heights) return heights.findings();
     heights_ = *heights;
     keep(sharesOf(source_->elevation->names(), heights_.given));
@@ -163,7 +160,7 @@ class Job {
     auto opened = FileHeights::open(*work_, heights_);
     if (!opened) return opened.findings();
     file_ = std::move(opened).value();
-    if (auto made = source_->makeTiles(*file_, stage(0.13, 0.15)); !made) return made;
+    if (auto made = source_->makeTiles(*file_, stage(Stage::scenery)); !made) return made;
     geometry_ = std::make_unique<PostGeometry>(heights_.posts);
     const double leafM =
         options_.maxError ? options_.maxError->value() : defaultLeafToleranceM(heights_.posts);
@@ -212,8 +209,8 @@ class Job {
     // Side by side, where memory holds both: the ground is one core's work for long, and patches, in many
     // small pieces, take whatever time of the cores is left.
     const bool beside = memory_ >= kBesideBytes;
-    const Progress patches = stage(scenery_ ? 0.15 : 0.3, scenery_ ? 0.2 : 0.7);
-    const Progress ground = stage(scenery_ ? 0.2 : 0.7, scenery_ ? 0.25 : 0.9);
+    const Progress patches = stage(Stage::patches);
+    const Progress ground = stage(Stage::ground);
     std::atomic<bool> stop{false}, failed{false};
     std::atomic<double> share{0};
     // Only this thread reports progress.
@@ -277,26 +274,23 @@ class Job {
   Result<Done> makeTiles() {
     const PostGrid& posts = heights_.posts;
     if (posts.size() > kMostTiledPosts) return Done{};
-    const auto part = [&](double from, double to) {
-      return scenery_ ? stage(0.25 + 0.1 * from, 0.25 + 0.1 * to) : stage(0.9 + 0.08 * from, 0.9 + 0.08 * to);
-    };
     if (tileBytes() > memory_) {
       findings_.push_back({Severity::note, output_.string(), "tiles",
                            std::to_string(tileBytes() / 1000000 + 1) + " MB of memory for them",
                            std::to_string(memory_ / 1000000) + " MB: left out, patches are drawn"});
       return Done{};
     }
-    if (auto done = measureTiles(part(0, 0.7)); !done) return done;
+    if (auto done = measureTiles(stage(Stage::tiles, 0, 0.7)); !done) return done;
     const auto& [index, slopes] = *tileLevels_;
     if (auto done = put(kNodesName, nodeNumbers(index)); !done) return done;
     if (auto done = put(kSlopesName, slopes.cells); !done) return done;
     if (auto done = put(kConesName, index.cones); !done) return done;
     tileLevels_.reset();
-    auto colours = source_->image(part(0.7, 0.85));
+    auto colours = source_->image(stage(Stage::tiles, 0.7, 0.85));
     if (!colours) return colours.findings();
     std::vector<std::uint8_t> image = std::move(colours).value();
     if (options_.imagery) {
-      auto read = readImagery(images_, posts, part(0.85, 1));
+      auto read = readImagery(images_, posts, stage(Stage::tiles, 0.85, 1));
       if (!read) return read.findings();
       drape(std::move(read).value(), image);
     }
@@ -344,7 +338,7 @@ class Job {
     StaticLodOptions trees;
     trees.trianglesPerNode = options_.trianglesPerNode;
     trees.keepLines = options_.keepLines;
-    trees.progress = stage(0.35, 0.98);
+    trees.progress = stage(Stage::trees);
     auto built = buildStaticLod(*meshes, geometry_->frame(), trees);
     if (!built) return built.findings();
     keep(built.findings());
@@ -361,12 +355,10 @@ class Job {
   Result<Done> finish(bool join) {
     std::error_code error;
     if (auto cleared = kept(work_->clearDatabase()); !cleared) return cleared;
-    if (auto done = patches_->join(work_->database() / kPatchesName,
-                                   stage(scenery_ ? 0.25 : 0.9, scenery_ ? 0.25 : 0.9));
-        !done)
+    if (auto done = patches_->join(work_->database() / kPatchesName, stage(Stage::tiles, 0, 0)); !done)
       return done;
     const auto ground = ground_->join(join ? ground_->parts() : 1, work_->database() / kGroundName,
-                                      stage(scenery_ ? 0.25 : 0.9, scenery_ ? 0.25 : 0.9));
+                                      stage(Stage::tiles, 0, 0));
     if (!ground) return ground;
     keep(ground.findings());
     for (const char* name : {kPatchesName, kGroundName})
@@ -399,7 +391,7 @@ class Job {
             writeManifest(work_->database(), info, heights_.posts, files_, trianglesPerNode_, recipe_);
         !written)
       return written;
-    if (!stage(0.99, 1)(1, "writing")) return cancelled(output_.string());
+    if (!stage(Stage::writing)(1, "writing")) return cancelled(output_.string());
     // An existing database is not given up for one that cannot be opened.
     if (auto opened = Database::open(work_->database()); !opened) {
       Findings why = opened.findings();
