@@ -185,7 +185,7 @@ void Session::follow(const AircraftState& state, double arrival) {
   hostClock_.follow(state.time, arrival);
   if (!first && current_) {
     const double gap = std::max(arrival - lastArrival_, 0.0);
-    if (isJump(current_->state.position, state.position, gap, gap > kSilenceS)) {
+    if (isJump(current_->state.position, state.position, gap, gap > longestGapS(current_->state))) {
       ++jumps_;
       lastJump_ = arrival;
     }
@@ -264,7 +264,10 @@ void Session::decideImage(double now) {
 
 LinkState Session::linkState(double now) const {
   if (lastArrival_ == 0) return LinkState::never;
-  if (now - lastArrival_ > parameters_->host.silenceAfter.in<Seconds>()) return LinkState::silent;
+  const double silentAfter = parameters_->host.silenceAfter.in<Seconds>();
+  const bool promised = current_ && current_->state.deadReckoning;
+  if (now - lastArrival_ > (promised ? std::max(silentAfter, longestGapS(current_->state)) : silentAfter))
+    return LinkState::silent;
   if (jumps_ > 0 && now - lastJump_ < kJumpShownS) return LinkState::jumped;
   return LinkState::live;
 }
