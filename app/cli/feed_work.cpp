@@ -37,9 +37,9 @@ void sayWhyNothing(const link::Receiver& receiver, link::LinkWatch& watch) {
 
 std::string health(const HostStatistics& s, const link::Senders& senders) {
   char text[256];
-  const ProtocolName* name = nameOf(s.protocol);
+  const ProtocolName* const protocol = nameOf(s.protocol);
   std::snprintf(text, sizeof text, "%s %.2f Hz jitter %.3f ms lost %s bad %llu",
-                name ? name->option : "no host", s.rateHz, s.jitterMs,
+                protocol ? protocol->option : "no host", s.rateHz, s.jitterMs,
                 s.lost ? std::to_string(*s.lost).c_str() : "n/a", static_cast<unsigned long long>(s.bad));
   std::string line = text;
   const auto append = [&line](const char* name, std::uint64_t count) {
