@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "feed_work.h"
 #include "progress.h"
+#include "trimtab/host/protocol_names.h"
 
 namespace trimtab::cli {
 namespace {
@@ -35,7 +36,7 @@ int play(const FeedOptions& options) {
     how.head = std::move(*head);
   }
   how.to = *to;
-  how.protocol = options.protocol == "native-fdm" ? WireProtocol::native_fdm : WireProtocol::cigi3;
+  if (const ProtocolName* name = nameOf(options.protocol)) how.protocol = name->wire;
   how.rateHz = options.rateHz;
   how.speed = options.speed;
   how.loop = options.loop;
@@ -131,8 +132,9 @@ void addListening(CLI::App* command, FeedOptions& options) {
           "Who may send: any, first (the first one to send a good packet, from then on), or an address")
       ->capture_default_str();
   command->add_option("--protocol", options.listenProtocol, "What the host speaks")
-      ->check(CLI::IsMember({"auto", "native-fdm", "cigi3"}))
+      ->check(CLI::IsMember(link::protocolOptions(true)))
       ->capture_default_str();
+  command->add_option("--entity", options.entity, link::kEntityHelp);
   command->add_option("--reply", options.reply, "HOST:PORT that gets a CIGI Start of Frame at 60 Hz");
   addEnding(command, options);
 }
@@ -159,7 +161,7 @@ void addFeed(CLI::App& app, int& exitCode) {
   playing->add_option("--to", options->to, "HOST:PORT")->required();
   playing->add_option("--protocol", options->protocol, "What to speak")
       ->required()
-      ->check(CLI::IsMember({"native-fdm", "cigi3"}));
+      ->check(CLI::IsMember(link::protocolOptions(false)));
   playing->add_option("--rate-hz", options->rateHz, "Packets a second; 0 sends the flight's rows as they are")
       ->check(CLI::Range(0.0, 10000.0))
       ->capture_default_str();

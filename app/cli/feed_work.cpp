@@ -3,23 +3,9 @@
 #include <cstdio>
 #include <thread>
 
+#include "trimtab/host/protocol_names.h"
+
 namespace trimtab::cli {
-namespace {
-
-const char* protocolText(WireProtocol protocol) {
-  switch (protocol) {
-    case WireProtocol::native_fdm:
-      return "native-fdm";
-    case WireProtocol::cigi3:
-      return "cigi3";
-    case WireProtocol::none:
-      break;
-  }
-  return "no host";
-}
-
-}  // namespace
-
 void nap() {
   std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
@@ -29,9 +15,8 @@ Result<std::unique_ptr<link::Receiver>> openReceiver(const FeedOptions& options)
   how.port = static_cast<std::uint16_t>(options.listen);
   how.bindAddress = options.bind;
   how.sender = options.from;
-  how.protocol = options.listenProtocol == "native-fdm" ? HostProtocol::native_fdm
-                 : options.listenProtocol == "cigi3"    ? HostProtocol::cigi3
-                                                        : HostProtocol::automatic;
+  if (const ProtocolName* name = nameOf(options.listenProtocol)) how.protocol = name->wanted;
+  how.entity = options.entity;
   if (!options.reply.empty()) {
     const auto reply = link::parseEndpoint(options.reply);
     if (!reply) return reply.findings();
@@ -52,9 +37,10 @@ void sayWhyNothing(const link::Receiver& receiver, link::LinkWatch& watch) {
 
 std::string health(const HostStatistics& s, const link::Senders& senders) {
   char text[256];
-  std::snprintf(text, sizeof text, "%s %.2f Hz jitter %.3f ms lost %s bad %llu", protocolText(s.protocol),
-                s.rateHz, s.jitterMs, s.lost ? std::to_string(*s.lost).c_str() : "n/a",
-                static_cast<unsigned long long>(s.bad));
+  const ProtocolName* const protocol = nameOf(s.protocol);
+  std::snprintf(text, sizeof text, "%s %.2f Hz jitter %.3f ms lost %s bad %llu",
+                protocol ? protocol->option : "no host", s.rateHz, s.jitterMs,
+                s.lost ? std::to_string(*s.lost).c_str() : "n/a", static_cast<unsigned long long>(s.bad));
   std::string line = text;
   const auto append = [&line](const char* name, std::uint64_t count) {
     if (count > 0) line += std::string(" ") + name + ' ' + std::to_string(count);
@@ -72,6 +58,8 @@ std::string health(const HostStatistics& s, const link::Senders& senders) {
   append("other-weather-layers", s.otherLayers);
   append("symbol-packets", s.symbolPackets);
   append("refused-symbols", s.refusedSymbols);
+  if (!s.ownEntity.empty()) line += " entity " + s.ownEntity;
+  if (!s.otherEntityNames.empty()) line += " beside " + s.otherEntityNames;
   append("of-refused-senders", senders.refused);
   if (senders.refused > 0) line += " last " + senders.lastRefused;
   for (const HostStatistics& other : senders.others) append(("of-" + other.from).c_str(), other.received);

@@ -48,7 +48,8 @@ class EverySecond {
 
 struct FeedOptions {
   std::string flight, columns, head, headColumns, to, out, protocol = "cigi3", listenProtocol = "auto", reply,
-                                                           bind = link::kOwnMachine, from = link::kAnyone;
+                                                           bind = link::kOwnMachine, from = link::kAnyone,
+                                                           entity;
   double rateHz = 60, speed = 1, startS = 0;
   bool loop = false;
   bool skipBadRows = false;  ///< of the head log

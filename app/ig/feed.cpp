@@ -153,6 +153,7 @@ Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake)
   receiver.group = options.group;
   receiver.sender = options.sender;
   receiver.protocol = options.protocol;
+  receiver.entity = options.entity;
   receiver.wake = [&wake] { wake.post(); };
   if (!options.reply.empty()) {
     Result<link::Endpoint> reply = link::parseEndpoint(options.reply);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "app/link/log_options.h"
+#include "trimtab/host/protocol_names.h"
 
 namespace trimtab::ig {
 namespace {
@@ -38,9 +39,8 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       ->required();
   app.add_option("--terrain", options.terrain, "baked terrain database; 'trimtab-cli terrain bake' makes one")
       ->required();
-  const std::map<std::string, HostProtocol> protocols{{"auto", HostProtocol::automatic},
-                                                      {"native-fdm", HostProtocol::native_fdm},
-                                                      {"cigi3", HostProtocol::cigi3}};
+  std::map<std::string, HostProtocol> protocols{{"auto", HostProtocol::automatic}};
+  for (const ProtocolName& name : kProtocols) protocols.emplace(name.option, name.wanted);
   auto* listen =
       app.add_option("--listen", options.listen, "UDP port of the host's packets; 0: any free one");
   app.add_option(
@@ -56,9 +56,10 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       ->capture_default_str();
   app.add_option("--reply", options.reply, "HOST:PORT that gets a Start of Frame for each frame's time")
       ->needs(listen);
-  app.add_option("--protocol", options.protocol, "auto, native-fdm or cigi3")
+  app.add_option("--protocol", options.protocol, "what the host speaks, if it is not to be recognised")
       ->needs(listen)
       ->transform(CLI::CheckedTransformer(protocols));
+  app.add_option("--entity", options.entity, link::kEntityHelp)->needs(listen);
   auto* flight =
       app.add_option("--flight", options.flight, "flight (CSV, pcap) or decision trace: one frame a row");
   app.add_option("--columns", options.columns, link::kColumnsHelp)->needs(flight);

@@ -18,6 +18,7 @@ struct Options {
   std::optional<std::uint16_t> listen;
   std::string bindAddress = link::kOwnMachine, group;  ///< of the port that is listened on
   std::string sender = link::kAnyone;                  ///< see link::ReceiverOptions::sender
+  std::string entity;                                  ///< see link::ReceiverOptions::entity
   std::string reply;                                   ///< HOST:PORT, empty for none
   HostProtocol protocol = HostProtocol::automatic;
   std::filesystem::path flight;

@@ -5,6 +5,7 @@
 
 #include "link.h"
 #include "socket.h"
+#include "trimtab/host/protocol_names.h"
 
 namespace trimtab::link {
 namespace {
@@ -14,6 +15,14 @@ Finding refusal(const std::string& text, std::string expected, std::string found
 }
 
 }  // namespace
+
+std::vector<std::string> protocolOptions(bool toReceive) {
+  std::vector<std::string> options;
+  if (toReceive) options.emplace_back("auto");
+  for (const ProtocolName& name : kProtocols)
+    if (toReceive || name.sent) options.emplace_back(name.option);
+  return options;
+}
 
 Result<Endpoint> parseEndpoint(const std::string& text) {
   constexpr const char* kForm = "HOST:PORT or PORT, such as 127.0.0.1:8004";

@@ -28,6 +28,13 @@ Result<Endpoint> parseEndpoint(const std::string& text);
 /// Unless told otherwise, nobody on the network reaches a receiver.
 inline constexpr const char *kOwnMachine = "127.0.0.1", *kAnyone = "any", *kFirst = "first";
 
+/// Helps with the option --entity of the programs.
+inline constexpr const char* kEntityHelp =
+    "Own aircraft among the entities of a DIS host: SITE:APPLICATION:ENTITY, the last number alone, or the "
+    "marking; without it the first platform that comes";
+/// Returns what --protocol may be: `auto` and all protocols of hosts, or those that can be sent.
+std::vector<std::string> protocolOptions(bool toReceive);
+
 /// Says who may send to a receiver, who sends, and who tried without being allowed.
 struct Senders {
   std::string allowed;         ///< an address, kAnyone, or kFirst before the first
@@ -47,6 +54,7 @@ struct ReceiverOptions {
   /// sender does not matter.
   std::string sender = kAnyone;
   HostProtocol protocol = HostProtocol::automatic;
+  std::string entity{};           ///< own aircraft of a DIS host (HostDecoder)
   std::optional<Endpoint> reply;  ///< where Start of Frame is sent, `replyRateHz` times per second
   double replyRateHz = 60;        ///< 0.001..10000
   /// Called on the receiver's thread after each state was queued. It must return at once: post an event.
@@ -88,7 +96,7 @@ struct PlayOptions {
   double startS = 0;  ///< seconds into the flight
   /// Replaces the head of the flight, on the flight's clock. native-fdm carries no head and refuses it.
   std::optional<HeadLog> head{};
-  /// Sends a small set of symbols with every packet; see exampleSymbols. native-fdm refuses it.
+  /// Sends a small set of symbols with every packet; see exampleSymbols. CIGI 3 alone has them.
   bool symbols = false;
 };
 /// Sends a flight over UDP on the flight's own clock, from its own thread.

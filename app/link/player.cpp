@@ -11,6 +11,7 @@
 #include "socket.h"
 #include "trimtab/host/encoder.h"
 #include "trimtab/host/flight.h"
+#include "trimtab/host/protocol_names.h"
 
 namespace trimtab::link {
 namespace {
@@ -126,8 +127,9 @@ void UdpPlayer::send(AircraftState state, double flightS, Clock::duration elapse
   // The host's clock runs on through pauses and loops, as a simulator's does.
   state.time = std::chrono::duration<double>(elapsed).count();
   if (protocol_ == WireProtocol::native_fdm) state.time += epoch_;
-  auto bytes =
-      protocol_ == WireProtocol::native_fdm ? encodeNativeFdm(state) : encodeCigiHost(state, ++frame_, 0);
+  const auto encodeCigi = protocol_ == WireProtocol::cigi4 ? encodeCigi4Host : encodeCigiHost;
+  auto bytes = protocol_ == WireProtocol::native_fdm ? encodeNativeFdm(state)
+                                                     : encodeCigi(state, ++frame_, 0, ByteOrder::big);
   if (symbols_) {
     const auto packets = encodeCigiSymbols(exampleSymbols(state.time));
     bytes.insert(bytes.end(), packets.begin(), packets.end());
@@ -225,11 +227,14 @@ Result<std::unique_ptr<FeedPlayer>> FeedPlayer::start(Flight flight, const PlayO
   if (!(options.rateHz == 0 || (options.rateHz >= kLowestRateHz && options.rateHz <= 10000)))
     refuse("rate", "0, or 0.001..10000 Hz", std::to_string(options.rateHz));
   if (!isSpeed(options.speed)) refuse("speed", "0.001..1000", std::to_string(options.speed));
-  if (options.protocol == WireProtocol::none) refuse("protocol", "native-fdm or cigi3", "none");
+  const ProtocolName* const protocol = nameOf(options.protocol);
+  if (!protocol || !protocol->sent)
+    refuse("protocol", "native-fdm, cigi3 or cigi4", protocol ? protocol->option : "none");
   if (options.head && options.protocol == WireProtocol::native_fdm)
-    refuse("head", "cigi3, whose View Control carries a head", "native-fdm, which has none");
-  if (options.symbols && options.protocol == WireProtocol::native_fdm)
-    refuse("symbols", "cigi3, whose packets define symbols", "native-fdm, which has none");
+    refuse("head", "cigi3 or cigi4, whose View Control carries a head", "native-fdm, which has none");
+  if (options.symbols && protocol && options.protocol != WireProtocol::cigi3)
+    refuse("symbols", "cigi3, whose packets define symbols",
+           std::string(protocol->option) + ", which has none");
   const auto address = resolve(options.to);
   if (!address) errors.insert(errors.end(), address.findings().begin(), address.findings().end());
   if (!errors.empty()) return errors;

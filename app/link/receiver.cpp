@@ -70,7 +70,7 @@ class UdpReceiver final : public Receiver {
         replyPeriod_(std::chrono::duration_cast<Clock::duration>(
             std::chrono::duration<double>(1 / options.replyRateHz))),
         wake_(options.wake),
-        decoder_(options.protocol),
+        decoder_(options.protocol, options.entity),
         gate_(std::move(gate)) {
     queue_.reserve(kQueue);
     thread_ = std::thread([this] { run(); });
@@ -247,8 +247,9 @@ void UdpReceiver::accept(std::span<const std::byte> bytes, double kernelTime) {
 }
 
 void UdpReceiver::sendStartOfFrame() {
-  const auto bytes =
-      encodeCigiStartOfFrame(++igFrame_, decoder_.lastHostFrame().value_or(0), now(), decoder_.hostOrder());
+  const auto encode =
+      decoder_.hostProtocol() == WireProtocol::cigi4 ? encodeCigi4StartOfFrame : encodeCigiStartOfFrame;
+  const auto bytes = encode(++igFrame_, decoder_.lastHostFrame().value_or(0), now(), decoder_.hostOrder());
   // A host that is not there yet is no reason to stop.
   static_cast<void>(::sendto(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
                              reinterpret_cast<const sockaddr*>(&*reply_), sizeof *reply_));

@@ -5,6 +5,7 @@
 
 #include "one_sender.h"
 #include "trimtab/host/motion.h"
+#include "trimtab/host/protocol_names.h"
 
 namespace trimtab {
 namespace {
@@ -16,6 +17,7 @@ constexpr std::size_t kMostSenders = 8;
 
 struct HostDecoder::Link {
   HostProtocol wanted = HostProtocol::automatic;
+  std::string entity;
   std::vector<std::unique_ptr<OneSender>> senders;
   OneSender* followed = nullptr;  ///< whose health is shown
   OneSender* newest = nullptr;    ///< the last one that was understood
@@ -37,7 +39,7 @@ OneSender& HostDecoder::Link::senderOf(const Datagram& datagram) {
     return *followed;
   }
   if (senders.size() == kMostSenders) forgetOne();
-  senders.push_back(std::make_unique<OneSender>(datagram.from, wanted));
+  senders.push_back(std::make_unique<OneSender>(datagram.from, wanted, entity));
   return *senders.back();
 }
 
@@ -66,8 +68,9 @@ void HostDecoder::Link::follow(OneSender& sender) {
     sender.noteAlongside();
 }
 
-HostDecoder::HostDecoder(HostProtocol protocol) : link_(std::make_unique<Link>()) {
+HostDecoder::HostDecoder(HostProtocol protocol, std::string entity) : link_(std::make_unique<Link>()) {
   link_->wanted = protocol;
+  link_->entity = std::move(entity);
 }
 HostDecoder::~HostDecoder() = default;
 HostDecoder::HostDecoder(HostDecoder&&) noexcept = default;
@@ -80,7 +83,7 @@ std::optional<AircraftState> HostDecoder::accept(const Datagram& datagram) {
   link_->understood = sender.understood();
   if (sender.understood()) link_->newest = &sender;
   link_->follow(sender);
-  if (state && sender.statistics().protocol == WireProtocol::native_fdm) state->packet = link_->unnumbered++;
+  if (state && !isCigi(sender.statistics().protocol)) state->packet = link_->unnumbered++;
   return state;
 }
 
@@ -108,14 +111,18 @@ std::shared_ptr<const HostSymbols> HostDecoder::symbols() const {
 std::optional<std::uint32_t> HostDecoder::lastHostFrame() const {
   return link_->newest ? link_->newest->lastFrame() : std::nullopt;
 }
+WireProtocol HostDecoder::hostProtocol() const {
+  return link_->newest ? link_->newest->statistics().protocol : WireProtocol::none;
+}
 ByteOrder HostDecoder::hostOrder() const {
   return link_->newest ? link_->newest->byteOrder() : ByteOrder::big;
 }
 
 void HostDecoder::reset() {
-  const HostProtocol wanted = link_->wanted;
-  link_ = std::make_unique<Link>();
-  link_->wanted = wanted;
+  auto fresh = std::make_unique<Link>();
+  fresh->wanted = link_->wanted;
+  fresh->entity = link_->entity;
+  link_ = std::move(fresh);
 }
 
 }  // namespace trimtab

@@ -25,7 +25,7 @@ void Extrapolator::push(const AircraftState& state) {
     states_[count_ - 1] = state;
     return;
   }
-  if (!(seconds > 0) || seconds > kSilenceS || isJump(last.position, state.position, seconds, false))
+  if (!(seconds > 0) || seconds > longestGapS(last) || isJump(last.position, state.position, seconds, false))
     return start(state);
   if (count_ == states_.size()) {
     std::move(states_.begin() + 1, states_.end(), states_.begin());
@@ -37,8 +37,10 @@ void Extrapolator::push(const AircraftState& state) {
 AircraftState Extrapolator::at(double time, double limitS) const {
   if (count_ == 0) return {};
   const AircraftState& last = states_[count_ - 1];
-  const double ahead = std::min(time - last.time, limitS);
+  const double limit = last.deadReckoning ? std::max(limitS, longestGapS(last)) : limitS;
+  const double ahead = std::min(time - last.time, limit);
   if (!(ahead > 0 && limitS > 0)) return last;
+  if (last.deadReckoning) return deadReckoned(last, ahead);
   std::size_t from = count_ - 1;
   while (from > 0 && last.time - states_[from].time < kBaselineS) --from;
   const AircraftState& before = states_[from];

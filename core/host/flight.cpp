@@ -6,9 +6,11 @@
 #include <map>
 
 #include "cigi3.h"
+#include "cigi4.h"
 #include "flight_notes.h"
 #include "trimtab/host/decoder.h"
 #include "trimtab/host/motion.h"
+#include "trimtab/host/protocol_names.h"
 #include "trimtab/preset/file_io.h"
 
 namespace trimtab {
@@ -54,7 +56,9 @@ Decoded decode(const Stream& stream) {
 }
 
 bool isStartOfFrame(const CapturedDatagram& d) {
-  return d.bytes.size() >= cigi3::kStartOfFrameSize && d.bytes[0] == std::byte{cigi3::kStartOfFrame};
+  const bool of3 =
+      d.bytes.size() >= cigi3::kStartOfFrameSize && d.bytes[0] == std::byte{cigi3::kStartOfFrame};
+  return of3 || cigi4::byteOrder(d.bytes, cigi4::kStartOfFrame);
 }
 
 /// Says why a sender's datagrams hold no state; empty if that is unknown.
@@ -132,7 +136,7 @@ Result<Flight> flightFromDatagrams(std::span<const CapturedDatagram> datagrams, 
   if (!busiest || decoded.states.empty()) {
     const std::string reason = whyNone(decoded.statistics);
     findings.push_back({Severity::error, where, "",
-                        "datagrams of a native-fdm or CIGI 3 host with an ownship",
+                        "datagrams of a host (CIGI, native-fdm, DIS or X-Plane) with an own aircraft",
                         std::to_string(datagrams.size()) + " datagrams, none of them" +
                             (reason.empty() ? "" : "; " + reason)});
     return findings;
@@ -154,7 +158,7 @@ Result<Flight> flightFromDatagrams(std::span<const CapturedDatagram> datagrams, 
   if (std::adjacent_find(states.begin(), states.end(), falls) != states.end()) {
     for (std::size_t i = 0; i < states.size(); ++i)
       states[i].time = i > 0 ? std::max(decoded.arrivals[i], states[i - 1].time) : decoded.arrivals[i];
-    if (decoded.statistics.protocol == WireProtocol::cigi3)
+    if (isCigi(decoded.statistics.protocol))
       findings.push_back({Severity::note, where, "", "",
                           "the host's timestamps do not rise throughout; arrival times are used"});
   }
@@ -166,12 +170,26 @@ Result<Flight> flightFromDatagrams(std::span<const CapturedDatagram> datagrams, 
 
 namespace {
 
+/// Says with what a packed file is unpacked; null if it is none.
+const char* unpacker(std::string_view bytes) {
+  if (bytes.starts_with("\x1f\x8b")) return "gunzip";
+  if (bytes.starts_with("\x28\xb5\x2f\xfd")) return "unzstd";
+  return bytes.starts_with(
+             "\xfd"
+             "7zXZ")
+             ? "unxz"
+             : nullptr;
+}
+
 Result<Flight> readAnyFlight(const std::filesystem::path& file, double defaultStepS,
                              const ColumnMap& columns) {
   const std::string where = file.string();
   const Result<std::string> read = readWhole(file, kLargestRecording);
   if (!read) return read.findings();
   const std::string& bytes = *read;
+  if (const char* tool = unpacker(bytes))
+    return Finding{Severity::error, where, "", "a table, a trace or a capture as it is",
+                   std::string("a packed file; unpack it first: ") + tool + ' ' + file.filename().string()};
   const auto begins = [&bytes](std::string_view magic) {
     return std::string_view(bytes).substr(0, 4) == magic;
   };

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include "cigi4.h"
+#include "dis.h"
 #include "limits.h"
 #include "native_fdm.h"
 #include "other_protocol.h"
 #include "packet_fault.h"
 #include "trimtab/host/motion.h"
+#include "trimtab/host/protocol_names.h"
+#include "x_plane.h"
 
 namespace trimtab {
 namespace {
@@ -30,8 +34,17 @@ bool isIgControl(std::span<const std::byte> bytes) {
          std::to_integer<int>(bytes[2]) == 3;
 }
 
-/// Says why neither protocol claims a datagram.
-PacketFault neither(std::span<const std::byte> bytes, WireProtocol last) {
+/// Says by content what a host speaks.
+WireProtocol recognised(std::span<const std::byte> bytes) {
+  if (native_fdm::matches(bytes)) return WireProtocol::native_fdm;
+  if (isIgControl(bytes)) return WireProtocol::cigi3;
+  if (cigi4::byteOrder(bytes, cigi4::kIgControl)) return WireProtocol::cigi4;
+  if (x_plane::matches(bytes)) return WireProtocol::x_plane;
+  return dis::matches(bytes) ? WireProtocol::dis : WireProtocol::none;
+}
+
+/// Says why no protocol claims a datagram.
+PacketFault noneOf(std::span<const std::byte> bytes, WireProtocol last) {
   const bool version =
       bytes.size() >= 4 && wire::get<std::uint32_t>(bytes, 0, ByteOrder::big) == native_fdm::kVersion;
   const bool likeNativeFdm = version || bytes.size() == native_fdm::kSize || last == WireProtocol::native_fdm;
@@ -41,8 +54,8 @@ PacketFault neither(std::span<const std::byte> bytes, WireProtocol last) {
     if (const auto fault = native_fdm::parse(bytes, unused)) return *fault;
   if (cigi3::byteOrder(bytes) || last == WireProtocol::cigi3)
     if (const auto fault = cigi3::parse(bytes, session).fault) return *fault;
-  return {0, "datagram", "FlightGear native-fdm 24 (408 bytes) or a CIGI 3 message from a host",
-          std::to_string(bytes.size()) + " bytes of neither"};
+  return {0, "datagram", "CIGI 3 or 4, FlightGear native-fdm 24 (408 bytes), DIS or X-Plane from a host",
+          std::to_string(bytes.size()) + " bytes of none of them"};
 }
 
 std::string_view addressOf(std::string_view from) {
@@ -53,13 +66,13 @@ std::string_view addressOf(std::string_view from) {
 
 std::optional<double> HostClock::advance(std::uint32_t ticks) {
   if (!last_) {
-    seconds_ = ticks * cigi3::kTickS;
+    seconds_ = ticks * tickS_;
   } else {
     const auto step = static_cast<std::int32_t>(ticks - *last_);
     // Counted in ticks, so that no rounding adds up and two receivers get the same number.
     if (step < 0 && ticks > *last_) --wraps_;
     if (step > 0 && ticks < *last_) ++wraps_;
-    seconds_ = (static_cast<double>(wraps_) * 4294967296.0 + ticks) * cigi3::kTickS;
+    seconds_ = (static_cast<double>(wraps_) * 4294967296.0 + ticks) * tickS_;
     stuck_ = step > 0 ? 0 : stuck_ + 1;
   }
   last_ = ticks;
@@ -68,10 +81,8 @@ std::optional<double> HostClock::advance(std::uint32_t ticks) {
 }
 
 WireProtocol OneSender::detect(std::span<const std::byte> bytes) const {
-  if (wanted_ == HostProtocol::native_fdm) return WireProtocol::native_fdm;
-  if (wanted_ == HostProtocol::cigi3) return WireProtocol::cigi3;
-  if (native_fdm::matches(bytes)) return WireProtocol::native_fdm;
-  return isIgControl(bytes) ? WireProtocol::cigi3 : WireProtocol::none;
+  const ProtocolName* wanted = nameOf(wanted_);
+  return wanted ? wanted->wire : recognised(bytes);
 }
 
 std::optional<AircraftState> OneSender::accept(const Datagram& datagram) {
@@ -83,11 +94,17 @@ std::optional<AircraftState> OneSender::accept(const Datagram& datagram) {
     case WireProtocol::native_fdm:
       return acceptNativeFdm(datagram);
     case WireProtocol::cigi3:
-      return acceptCigi(datagram);
+      return acceptCigi(datagram, WireProtocol::cigi3);
+    case WireProtocol::cigi4:
+      return acceptCigi(datagram, WireProtocol::cigi4);
+    case WireProtocol::dis:
+      return acceptDis(datagram);
+    case WireProtocol::x_plane:
+      return acceptXPlane(datagram);
     case WireProtocol::none:
       break;
   }
-  refuse(datagram, neither(datagram.bytes, statistics_.protocol));
+  refuse(datagram, noneOf(datagram.bytes, statistics_.protocol));
   return std::nullopt;
 }
 
@@ -95,9 +112,10 @@ bool OneSender::goesOnWith(const Datagram& datagram) const {
   constexpr std::size_t kFrame = 8, kAfterFrame = 12;
   if (ofThisPort_ != 1 || addressOf(datagram.from) != addressOf(statistics_.from) || !order_.last())
     return false;
-  if (datagram.bytes.size() < kAfterFrame || !isIgControl(datagram.bytes)) return false;
-  const ByteOrder order = *cigi3::byteOrder(datagram.bytes);
-  return wire::get<std::uint32_t>(datagram.bytes, kFrame, order) == *order_.last() + 1;
+  if (datagram.bytes.size() < kAfterFrame) return false;
+  const auto order = isIgControl(datagram.bytes) ? cigi3::byteOrder(datagram.bytes)
+                                                 : cigi4::byteOrder(datagram.bytes, cigi4::kIgControl);
+  return order && wire::get<std::uint32_t>(datagram.bytes, kFrame, *order) == *order_.last() + 1;
 }
 
 void OneSender::keepFirstBad(std::span<const std::byte> bytes, const PacketFault& fault) {
@@ -119,12 +137,10 @@ void OneSender::refuse(const Datagram& datagram, const PacketFault& fault) {
 }
 
 std::optional<PacketFault> OneSender::otherThanWanted(std::span<const std::byte> bytes) const {
-  constexpr const char* kRemedy = "ask for the protocol that the host speaks, or for auto";
-  if (wanted_ == HostProtocol::cigi3 && native_fdm::matches(bytes))
-    return PacketFault{0, "protocol", "CIGI 3, as was asked for", "native-fdm 24", kRemedy};
-  if (wanted_ == HostProtocol::native_fdm && isIgControl(bytes))
-    return PacketFault{0, "protocol", "native-fdm 24, as was asked for", "CIGI 3", kRemedy};
-  return std::nullopt;
+  const ProtocolName *wanted = nameOf(wanted_), *found = nameOf(recognised(bytes));
+  if (!wanted || !found || wanted == found) return std::nullopt;
+  return PacketFault{0, "protocol", std::string(wanted->label) + ", as was asked for", found->label,
+                     "ask for the protocol that the host speaks, or for auto"};
 }
 
 void OneSender::heard(const Datagram& datagram, WireProtocol protocol, bool silence) {
@@ -166,26 +182,11 @@ std::optional<AircraftState> OneSender::finish(const AircraftState& state, doubl
   return state;
 }
 
-std::optional<AircraftState> OneSender::acceptNativeFdm(const Datagram& datagram) {
-  AircraftState state;
-  if (const auto fault = native_fdm::parse(datagram.bytes, state)) {
-    refuse(datagram, *fault);
-    return std::nullopt;
-  }
-  const double gap = gapTo(datagram);
-  const bool silence = gap > kSilenceS,
-             known = statistics_.protocol == WireProtocol::native_fdm && gap > 0 && !silence;
-  if (const double even = meter_.meanGapS(); known && even > 0) meter_.deviated(gap - even);
-  statistics_.lost.reset();
-  heard(datagram, WireProtocol::native_fdm, silence);
-  state.time = datagram.arrival;
-  return finish(state, gap, silence);
-}
-
-std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram) {
+std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram, WireProtocol protocol) {
+  const auto parse = protocol == WireProtocol::cigi4 ? cigi4::parse : cigi3::parse;
   // Into a copy: a message that turns out bad at its last packet has changed nothing.
   cigi3::Session candidate = session_;
-  const cigi3::Message message = cigi3::parse(datagram.bytes, candidate);
+  const cigi3::Message message = parse(datagram.bytes, candidate);
   if (message.fault) {
     refuse(datagram, *message.fault);
     return std::nullopt;
@@ -202,7 +203,7 @@ std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram) {
   if (verdict != FrameOrder::Verdict::next && verdict != FrameOrder::Verdict::restarted) {
     statistics_.repeated += verdict == FrameOrder::Verdict::repeated;
     statistics_.reordered += verdict == FrameOrder::Verdict::reordered;
-    heard(datagram, WireProtocol::cigi3, silence);
+    heard(datagram, protocol, silence);
     return unused("frame number of IG Control",
                   "one that rises, above " + std::to_string(order_.last().value_or(0)),
                   std::to_string(message.frame));
@@ -212,7 +213,7 @@ std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram) {
     ++statistics_.restarts;
     clock_.restart();
     candidate = {};
-    static_cast<void>(cigi3::parse(datagram.bytes, candidate));
+    static_cast<void>(parse(datagram.bytes, candidate));
   }
   session_ = candidate;
   statistics_.regionalWeather += static_cast<std::uint64_t>(message.regionalWeather);
@@ -232,7 +233,7 @@ std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram) {
     else if (!hostTime && even > 0)
       meter_.deviated(gap - even);
   }
-  heard(datagram, WireProtocol::cigi3, silence);
+  heard(datagram, protocol, silence);
   if (!session_.position) return withoutOwnship(message);
   AircraftState state;
   state.time = time;

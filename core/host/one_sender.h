@@ -6,19 +6,23 @@
 #include <string>
 
 #include "cigi3.h"
+#include "dis.h"
 #include "frame_order.h"
 #include "rate_meter.h"
 #include "trimtab/host/decoder.h"
+#include "x_plane.h"
 
 namespace trimtab {
 
 /// Seconds of a 32-bit tick counter that wraps; useless once it stands still while frames go on.
 class HostClock {
  public:
-  void restart() { *this = HostClock(); }
+  explicit HostClock(double tickS) : tickS_(tickS) {}
+  void restart() { *this = HostClock(tickS_); }
   std::optional<double> advance(std::uint32_t ticks);
 
  private:
+  double tickS_;
   std::optional<std::uint32_t> last_;
   std::int64_t wraps_ = 0;
   double seconds_ = 0;
@@ -28,7 +32,10 @@ class HostClock {
 /// Decodes what one sender sends: what its datagrams add up to, and the health of its link.
 class OneSender {
  public:
-  OneSender(std::string from, HostProtocol wanted) : wanted_(wanted) { statistics_.from = std::move(from); }
+  OneSender(std::string from, HostProtocol wanted, const std::string& entity)
+      : wanted_(wanted), ownEntity_(entity) {
+    statistics_.from = std::move(from);
+  }
 
   /// Does what HostDecoder::accept does, for the datagrams of this sender.
   std::optional<AircraftState> accept(const Datagram& datagram);
@@ -58,13 +65,18 @@ class OneSender {
  private:
   WireProtocol detect(std::span<const std::byte> bytes) const;
   void refuse(const Datagram& datagram, const PacketFault& fault);
-  /// Says that a datagram is the other protocol's, where one was asked for.
+  /// Says that a datagram is another protocol's, where one was asked for.
   std::optional<PacketFault> otherThanWanted(std::span<const std::byte> bytes) const;
   void keepFirstBad(std::span<const std::byte> bytes, const PacketFault& fault);
   /// Counts a host's datagram: link health that does not depend on what it says.
   void heard(const Datagram& datagram, WireProtocol protocol, bool silence);
   std::optional<AircraftState> acceptNativeFdm(const Datagram& datagram);
-  std::optional<AircraftState> acceptCigi(const Datagram& datagram);
+  std::optional<AircraftState> acceptCigi(const Datagram& datagram, WireProtocol protocol);
+  std::optional<AircraftState> acceptDis(const Datagram& datagram);
+  std::optional<AircraftState> acceptXPlane(const Datagram& datagram);
+  /// Counts and finishes a state of a protocol without numbers whose clock is that of arrivals.
+  std::optional<AircraftState> arrived(const Datagram& datagram, WireProtocol protocol, AircraftState state);
+  std::optional<AircraftState> withoutOwnEntity(const Datagram& datagram, int entities);
   std::optional<AircraftState> finish(const AircraftState& state, double gapS, bool silence);
   std::optional<AircraftState> withoutOwnship(const cigi3::Message& message);
   /// Says why a host's datagram leads to no state; returns none.
@@ -84,8 +96,14 @@ class OneSender {
 
   cigi3::Session session_;
   FrameOrder order_;
-  HostClock clock_;
+  HostClock clock_{cigi3::kTickS};
   ByteOrder hostOrder_ = ByteOrder::big;
+
+  dis::OwnEntity ownEntity_;
+  HostClock disClock_{dis::kTickS};
+  std::optional<std::uint32_t> lastTicks_;  ///< time stamp of the own entity
+
+  x_plane::Session xPlane_;
 };
 
 }  // namespace trimtab

@@ -27,12 +27,13 @@ void HostLink::follow(const AircraftState& state, double arrival, const Aircraft
   clock_.follow(state.time, arrival);
   if (!first && before != nullptr) {
     const double gap = std::max(arrival - lastArrival_, 0.0);
-    if (isJump(before->position, state.position, gap, gap > kSilenceS)) {
+    if (isJump(before->position, state.position, gap, gap > longestGapS(*before))) {
       ++jumps_;
       lastJump_ = arrival;
     }
   }
   lastArrival_ = arrival;
+  promisedS_ = state.deadReckoning ? longestGapS(state) : 0;
   extrapolator_.push(state);
 }
 
@@ -43,7 +44,7 @@ void HostLink::leave() {
 
 LinkState HostLink::state(double now, Milliseconds silenceAfter) const {
   if (lastArrival_ == 0) return LinkState::never;
-  if (now - lastArrival_ > silenceAfter.in<Seconds>()) return LinkState::silent;
+  if (now - lastArrival_ > std::max(silenceAfter.in<Seconds>(), promisedS_)) return LinkState::silent;
   if (jumps_ > 0 && now - lastJump_ < kJumpShownS) return LinkState::jumped;
   return LinkState::live;
 }

@@ -44,7 +44,8 @@ FileKind fileKindOf(const QString& path) {
   if (name.endsWith(QLatin1String(kSessionEnding))) return FileKind::session;
   if (ending == QLatin1String("json")) return FileKind::preset;
   if (ending == QLatin1String("fll") || ending == QLatin1String("fis")) return FileKind::rules;
-  if (ending == QLatin1String("pcap") || ending == QLatin1String("gpx") || ending == QLatin1String("igc"))
+  if (ending == QLatin1String("pcap") || ending == QLatin1String("pcapng") ||
+      ending == QLatin1String("gpx") || ending == QLatin1String("igc"))
     return FileKind::flight;
   if (ending == QLatin1String("csv") || ending == QLatin1String("txt")) return kindOfTable(path);
   return FileKind::terrain;

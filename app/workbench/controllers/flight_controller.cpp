@@ -56,7 +56,7 @@ bool FlightController::open(const QString& file) {
 void FlightController::askOpen() {
   const QString file =
       QFileDialog::getOpenFileName(&at_.window, tr("Open flight"), folderOfRecent(QStringLiteral("flight")),
-                                   tr("Flights and captures (*.csv *.pcap);;All files (*)"));
+                                   tr("Flights and captures (*.csv *.pcap *.pcapng);;All files (*)"));
   if (!file.isEmpty()) open(file);
 }
 

@@ -75,7 +75,8 @@ FlightDock::FlightDock(Feed& feed, QWidget* parent)
   speed_->setValue(1);
   speed_->setPrefix(QStringLiteral("× "));
   speed_->setAccessibleName(tr("Speed"));
-  via_->addItems({tr("here, without a network"), tr("over UDP, CIGI 3.3"), tr("over UDP, native-fdm")});
+  via_->addItems({tr("here, without a network"), tr("over UDP, CIGI 3.3"), tr("over UDP, native-fdm"),
+                  tr("over UDP, CIGI 4.0")});
   via_->setToolTip(tr(
       "Over UDP the flight is sent like a real host's packets, to the port that the Host dock listens on"));
   auto* form = new QFormLayout;
@@ -189,8 +190,9 @@ void FlightDock::play() {
   }
   double start = position();
   if (start >= feed_.playback().duration()) start = 0;
-  const WireProtocol protocol =
-      via_->currentIndex() == udpCigi ? WireProtocol::cigi3 : WireProtocol::native_fdm;
+  const WireProtocol protocol = via_->currentIndex() == udpCigi    ? WireProtocol::cigi3
+                                : via_->currentIndex() == udpCigi4 ? WireProtocol::cigi4
+                                                                   : WireProtocol::native_fdm;
   if (const Findings findings = feed_.playOverUdp(protocol, speed_->value(), loop_->isChecked(), start);
       !findings.empty())
     emit refused(tr("The flight cannot be sent"), findings);

@@ -54,7 +54,7 @@ class FlightDock : public QWidget {
 
  private:
   QIcon symbol(QStyle::StandardPixmap which) const;
-  enum Via { here, udpCigi, udpNativeFdm };
+  enum Via { here, udpCigi, udpNativeFdm, udpCigi4 };
   bool overUdp() const;
   void showState();
   void showPosition();

@@ -18,6 +18,7 @@
 #include <initializer_list>
 
 #include "app/link/link.h"
+#include "trimtab/host/protocol_names.h"
 #include "views/controls/scrollable.h"
 #include "views/model/draft.h"
 #include "views/model/theme.h"
@@ -32,15 +33,8 @@ constexpr auto kProtocolKey = "host.protocol";
 const QString kNone = QStringLiteral("–");
 
 QString protocolText(WireProtocol protocol) {
-  switch (protocol) {
-    case WireProtocol::native_fdm:
-      return QStringLiteral("FlightGear native-fdm v24");
-    case WireProtocol::cigi3:
-      return QStringLiteral("CIGI 3");
-    case WireProtocol::none:
-      break;
-  }
-  return kNone;
+  const ProtocolName* const name = nameOf(protocol);
+  return name ? QString::fromLatin1(name->label) : kNone;
 }
 
 QString milliseconds(double ms) {
@@ -398,8 +392,9 @@ void HostDock::refresh() {
                  : any && host.states > 0 ? tr("0 Hz")
                                           : kNone);
   jitter_->setText(host.states > 1 ? milliseconds(host.jitterMs) : kNone);
-  if (host.protocol == WireProtocol::native_fdm)
-    loss_->setText(tr("not carried by native-fdm"));
+  const bool numbered = host.protocol == WireProtocol::none || isCigi(host.protocol);
+  if (!numbered)
+    loss_->setText(tr("not carried by %1").arg(QString::fromLatin1(nameOf(host.protocol)->option)));
   else
     loss_->setText(host.lost ? number(*host.lost) : kNone);
   age_->setText(any && std::isfinite(age) ? tr("%1 ago").arg(milliseconds(age * 1e3)) : kNone);

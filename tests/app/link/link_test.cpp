@@ -93,7 +93,8 @@ TEST(Link, refusesAGroupThatIsNone) {
 
 TEST(Link, carriesAFlightAt60HzWithoutLoss) {
   for (const Protocol& protocol :
-       {Protocol{WireProtocol::cigi3, "cigi3"}, Protocol{WireProtocol::native_fdm, "native-fdm"}}) {
+       {Protocol{WireProtocol::cigi3, "cigi3"}, Protocol{WireProtocol::cigi4, "cigi4"},
+        Protocol{WireProtocol::native_fdm, "native-fdm"}}) {
     SCOPED_TRACE(protocol.name);
     std::atomic<int> woken{0};
     link::ReceiverOptions options;
@@ -106,7 +107,7 @@ TEST(Link, carriesAFlightAt60HzWithoutLoss) {
     EXPECT_EQ(s.protocol, protocol.wire);
     EXPECT_EQ(s.bad, 0U);
     EXPECT_EQ(s.lost.value_or(0), 0U);
-    EXPECT_EQ(s.lost.has_value(), protocol.wire == WireProtocol::cigi3);
+    EXPECT_EQ(s.lost.has_value(), protocol.wire != WireProtocol::native_fdm);
     EXPECT_GE(woken.load(), 240);
     EXPECT_EQ(receiver->dropped(), 0U);
     std::vector<double> latency;

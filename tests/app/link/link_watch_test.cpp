@@ -53,8 +53,8 @@ TEST_F(LinkWatchTest, saysTheFirstRefusedDatagramAtOnceAndThenOneLineInTenSecond
   send(stray, kBad);
   EXPECT_THAT(look(101),
               Optional(port() + ": 1 of 1 datagrams refused; the newest from " + name(stray) +
-                       ": byte 0: datagram: expected FlightGear native-fdm 24 (408 bytes) or a CIGI 3 "
-                       "message from a host, found 30 bytes of neither"));
+                       ": byte 0: datagram: expected CIGI 3 or 4, FlightGear native-fdm 24 (408 bytes), DIS or "
+                       "X-Plane from a host, found 30 bytes of none of them"));
   send(stray, kBad, 249);
   for (double now = 101; now < 111; now += 0.5) EXPECT_FALSE(look(now)) << now;
   EXPECT_THAT(look(111), Optional(HasSubstr("250 of 250 datagrams refused")));

@@ -59,19 +59,39 @@ void expectForSomeoneElse(const SomeoneElses& c, const Bytes& bytes) {
 TEST(OtherProtocol, isCountedApartAndSaysWhatToDo) {
   const SomeoneElses cases[] = {
       {"native-fdm 25", [] { return altered(encodeNativeFdm(aState()), 0, std::uint32_t{25}); },
-       "byte 0: native-fdm version: expected 24, big-endian, in 408 bytes, found 25, big-endian, in 408 "
-       "bytes"},
+       "byte 0: FlightGear protocol: expected native-fdm version 24, big-endian, in 408 bytes, found "
+       "native-fdm version 25, big-endian, in 408 bytes; let it send native-fdm version 24"},
       {"little-endian",
        [] { return altered(encodeNativeFdm(aState()), 0, std::uint32_t{24}, ByteOrder::little); },
-       "found 24, little-endian"},
+       "found native-fdm version 24, little-endian, in 408 bytes; let it write network byte order"},
+      {"native-gui", [] { return altered(Bytes(112), 0, std::uint32_t{8}); },
+       "found native-gui version 8, big-endian, in 112 bytes; send native-fdm (--native-fdm=socket"},
+      {"native-ctrls", [] { return altered(Bytes(744), 0, std::uint32_t{27}); },
+       "found native-ctrls version 27, big-endian, in 744 bytes; send native-fdm"},
       {"CIGI 4 in the layout of 3",
        [] { return altered(encodeCigiHost(aState(), 1, 0), 2, std::uint8_t{4}); },
-       "byte 2: CIGI major version: expected 3, found 4; let the host send CIGI 3.3"},
+       "byte 2: CIGI major version: expected 3 or 4, found 4; let the host send CIGI 3.3 or 4.0"},
+      {"CIGI 3 without its magic",
+       [] { return altered(encodeCigiHost(aState(), 1, 0), 6, std::uint16_t{0}); },
+       "byte 6: byte-swap magic of CIGI 3: expected 80 00 or 00 80, found 00 00, a vendor's own layout; let"},
+      {"CIGI 3 with its version at byte 3",
+       [] {
+         return altered(altered(encodeCigiHost(aState(), 1, 0), 6, std::uint16_t{0}), 2,
+                        std::uint16_t{0x0103});
+       },
+       "byte 6: byte-swap magic of CIGI 3"},
+      {"Start of Frame of CIGI 2",
+       [] {
+         return altered(altered(altered(Bytes(16), 0, std::uint8_t{101}), 1, std::uint8_t{16}), 2,
+                        std::uint8_t{2});
+       },
+       "byte 0: CIGI packet id: expected 1 (IG Control: a host), found 101"},
+      {"Start of Frame of CIGI 4", [] { return encodeCigi4StartOfFrame(1, 0, 0); },
+       "found Start of Frame of CIGI 4; an image generator replies here"},
       {"Start of Frame", [] { return encodeCigiStartOfFrame(1, 0, 0); },
        "byte 0: CIGI packet id: expected 1 (IG Control: a host), found 101"},
-      {"X-Plane", [] { return text("DATA*"); }, "found X-Plane"},
-      {"DIS", [] { return altered(text(std::string("\x06\x01\x01\x01", 4)), 8, std::uint16_t{41}); },
-       "found DIS"},
+      {"DIS", [] { return altered(text(std::string("\x06\x01\x02\x02", 4)), 8, std::uint16_t{41}); },
+       "byte 2: type of DIS PDU: expected 1 (Entity State), found 2"},
       {"another entity", [] { return entityOnly(1); },
        "byte 26: entity: expected 0, the ownship, found 1 only; let the host send its own aircraft as entity "
        "0"},
@@ -82,12 +102,13 @@ TEST(OtherProtocol, isCountedApartAndSaysWhatToDo) {
 TEST(OtherProtocol, isToldOfRealPrograms) {
   TRIMTAB_NEEDS_SHARED("cases/hosts/udp");
   const SomeoneElses cases[] = {
-      {"cigi22.hex", {}, "CIGI major version: expected 3, found 2"},
-      {"cigi4_be.hex", {}, "CIGI major version: expected 3, found 4"},
-      {"cigi4_le.hex", {}, "CIGI major version: expected 3, found 4"},
-      {"fdm_v25_552.hex", {}, "found 25, big-endian, in 552 bytes"},
-      {"fdm_v24_little_endian.hex", {}, "found 24, little-endian, in 408 bytes"},
-      {"gui_v8_paparazzi_little_endian.hex", {}, "found 8, little-endian, in 112 bytes"},
+      {"cigi22.hex", {}, "CIGI major version: expected 3 or 4, found 2"},
+      {"cigi4_be.hex", {}, "byte 30: entity: expected 0, the ownship, found 256 only"},
+      {"cigi4_le.hex", {}, "byte 30: entity: expected 0, the ownship, found 1 only"},
+      {"cigi_trillium_layout.hex", {}, "found 00 00, a vendor's own layout"},
+      {"fdm_v25_552.hex", {}, "found native-fdm version 25, big-endian, in 552 bytes"},
+      {"fdm_v24_little_endian.hex", {}, "found native-fdm version 24, little-endian, in 408 bytes"},
+      {"gui_v8_paparazzi_little_endian.hex", {}, "found native-gui version 8, little-endian, in 112 bytes"},
       {"cigi_entity_1_only_skybolt.hex", {}, "entity: expected 0, the ownship, found 1 only"},
   };
   for (const SomeoneElses& c : cases) expectForSomeoneElse(c, shared(c.name));
@@ -120,8 +141,9 @@ TEST(OtherProtocol, isNotAnotherEntityBesideTheOwnship) {
 TEST(HostDecoder, saysWhichProtocolCameInPlaceOfTheOneThatWasAskedFor) {
   HostDecoder cigi(HostProtocol::cigi3), native(HostProtocol::native_fdm);
   feed(cigi, encodeNativeFdm(aState()), 1);
-  EXPECT_THAT(toString(*cigi.statistics().newestBad),
-              HasSubstr("protocol: expected CIGI 3, as was asked for, found native-fdm 24; ask for"));
+  EXPECT_THAT(
+      toString(*cigi.statistics().newestBad),
+      HasSubstr("protocol: expected CIGI 3, as was asked for, found FlightGear native-fdm 24; ask for"));
   feed(native, encodeCigiHost(aState(), 1, 0), 1);
   EXPECT_THAT(toString(*native.statistics().newestBad), HasSubstr("found CIGI 3; ask for"));
 }

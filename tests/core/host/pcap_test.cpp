@@ -64,9 +64,21 @@ TEST(Pcap, isReadInEveryFormThatEditcapWrites) {
   EXPECT_NEAR((*nano)[4].time, someDatagrams()[4].time, 1e-6);
   ASSERT_EQ(
       run("editcap -F pcapng " + (dir / "x.pcap").string() + ' ' + (dir / "new.pcap").string()).exitCode, 0);
-  const auto refused = readFlight(dir / "new.pcap");
-  ASSERT_FALSE(refused);
-  EXPECT_NE(toString(refused.findings()).find("editcap"), std::string::npos);
+  const auto newFormat = readPcap(dir / "new.pcap");
+  ASSERT_TRUE(newFormat) << toString(newFormat.findings());
+  ASSERT_EQ(newFormat->size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR((*newFormat)[i].time, someDatagrams()[i].time, 1e-6);
+    EXPECT_EQ((*newFormat)[i].bytes, someDatagrams()[i].bytes);
+  }
+  EXPECT_TRUE(readFlight(dir / "new.pcap"));
+  ASSERT_EQ(run("editcap -s 60 " + (dir / "x.pcap").string() + ' ' + (dir / "cut.pcapng").string()).exitCode,
+            0);
+  const auto cut = readPcap(dir / "cut.pcapng");
+  ASSERT_TRUE(cut) << toString(cut.findings());
+  EXPECT_NE(toString(cut.findings()).find("5 frames were cut by the capture, the longest of 100 bytes to 60"),
+            std::string::npos)
+      << toString(cut.findings());
 }
 
 TEST(Pcap, ofAHostBecomesAFlight) {

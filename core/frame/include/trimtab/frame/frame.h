@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "trimtab/frame/dead_reckoning.h"
 #include "trimtab/frame/motion_decision.h"
 #include "trimtab/frame/policy_outcome.h"
 #include "trimtab/frame/weather_decision.h"
@@ -58,6 +59,7 @@ struct AircraftState {
   std::optional<HostView> view;
   std::optional<Knots> airspeed;     ///< calibrated; CIGI has none
   std::optional<Velocity> velocity;  ///< from the host; if unset, it is computed from successive positions
+  std::optional<DeadReckoning> deadReckoning;  ///< from the host; if unset, states are extrapolated instead
 
   friend bool operator==(const AircraftState&, const AircraftState&) = default;
 };

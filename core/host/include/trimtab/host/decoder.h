@@ -24,7 +24,7 @@ struct Datagram {
   std::string from;    ///< "127.0.0.1:5500"
 };
 
-enum class WireProtocol { none, native_fdm, cigi3 };
+enum class WireProtocol { none, native_fdm, cigi3, cigi4, dis, x_plane };
 
 /// The health of one sender's link, as the Host dock shows it. Counters only grow, except `lost`, which a
 /// late packet lowers again, and `implausible`, which the second packet of a new count lowers.
@@ -67,14 +67,18 @@ struct HostStatistics {
   std::uint64_t refusedSymbols =
       0;  ///< CIGI symbol packets that were left out; the rest of their message counts
   std::string firstSymbolReason;  ///< of the first one: byte offset, expected, found
-  std::uint64_t silences = 0;     ///< gaps of more than two seconds between good datagrams
+  /// Of a DIS host: "17:2:5 VIPER1", the entity that is followed, and the first few others that it sends.
+  std::string ownEntity, otherEntityNames;
+  std::uint64_t silences = 0;  ///< gaps of more than two seconds between good datagrams
 };
 
 /// Decodes datagrams in order of arrival. Bad ones are counted and never thrown. Use it on one thread at a
 /// time.
 class HostDecoder {
  public:
-  explicit HostDecoder(HostProtocol protocol = HostProtocol::automatic);
+  /// `entity` is the own aircraft among the entities of a DIS host: its id as "17:2:5", the last number of
+  /// it, or its marking. If it is empty, the first platform that comes is followed.
+  explicit HostDecoder(HostProtocol protocol = HostProtocol::automatic, std::string entity = {});
   ~HostDecoder();
   HostDecoder(HostDecoder&&) noexcept;
   HostDecoder& operator=(HostDecoder&&) noexcept;
@@ -106,7 +110,9 @@ class HostDecoder {
   /// and big if it is not CIGI.
   std::optional<std::uint32_t> lastHostFrame() const;
   ByteOrder hostOrder() const;
-  /// Forgets everything but the protocol that was asked for.
+  /// Returns the protocol of the newest good datagram; none before any.
+  WireProtocol hostProtocol() const;
+  /// Forgets everything but what was asked for.
   void reset();
 
  private:
@@ -123,7 +129,8 @@ class Extrapolator {
   /// Returns the state moved on to `time`, on the clock of the states (HostClockOffset maps the
   /// wall clock to it), but by `limitS` seconds at most. Returns the last state unchanged if `limitS` is 0,
   /// if `time` is not after it, or if its motion is unknown: at the first state, after a jump or a silence,
-  /// and when the host's clock went back.
+  /// and when the host's clock went back. A host that promises a dead reckoning is believed instead, for as
+  /// long as it may stay silent (longestGapS), if `limitS` is not 0.
   AircraftState at(double time, double limitS) const;
 
  private:

@@ -9,7 +9,7 @@
 #include "trimtab/host/byte_order.h"
 
 /// Encodes what is sent: a host's packets for `feed play`, and an IG's Start of Frame for synchronous hosts.
-/// The layouts are beside each writer, in encoder.cpp, native_fdm.cpp and symbol_encoder.cpp.
+/// The layouts are beside each writer, in encoder.cpp, native_fdm.cpp, cigi4.cpp and symbol_encoder.cpp.
 namespace trimtab {
 
 /// Returns a FlightGear native-fdm packet of version 24, 408 bytes.
@@ -20,6 +20,9 @@ std::vector<std::byte> encodeNativeFdm(const AircraftState& state);
 /// falls, so a state with neither loses it.
 std::vector<std::byte> encodeCigiHost(const AircraftState& state, std::uint32_t frame,
                                       std::uint32_t lastIgFrame, ByteOrder order = ByteOrder::big);
+/// Returns the same as a CIGI 4.0 message, with Entity Position in place of Entity Control.
+std::vector<std::byte> encodeCigi4Host(const AircraftState& state, std::uint32_t frame,
+                                       std::uint32_t lastIgFrame, ByteOrder order = ByteOrder::big);
 /// Returns the CIGI 3.3 packets that make these symbols: all surfaces, then all definitions, then a Symbol
 /// Control each, so that a parent is defined before a child names it. They follow the message of
 /// encodeCigiHost. Points and circles beyond what a packet holds (29 and 9), and text beyond 235 bytes, are
@@ -31,5 +34,8 @@ HostSymbols exampleSymbols(double timeS);
 /// Returns a CIGI 3.3 Start of Frame, 24 bytes.
 std::vector<std::byte> encodeCigiStartOfFrame(std::uint32_t igFrame, std::uint32_t lastHostFrame,
                                               double timeS, ByteOrder order = ByteOrder::big);
+/// Returns a CIGI 4.0 Start of Frame, 24 bytes.
+std::vector<std::byte> encodeCigi4StartOfFrame(std::uint32_t igFrame, std::uint32_t lastHostFrame,
+                                               double timeS, ByteOrder order = ByteOrder::big);
 
 }  // namespace trimtab

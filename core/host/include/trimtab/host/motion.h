@@ -10,6 +10,13 @@ namespace trimtab {
 /// a silence of the host, in which nobody knows how the aircraft moved.
 inline constexpr double kSilenceS = 2;
 
+/// Returns the longest gap after a state, seconds, that is no silence: kSilenceS, or for a host that promises
+/// a dead reckoning the time after which DIS gives it up.
+double longestGapS(const AircraftState& state);
+/// Returns a state moved on by its host's dead reckoning, with all else as it was; only its time is moved on
+/// if it has none.
+AircraftState deadReckoned(const AircraftState& state, double seconds);
+
 /// Returns the distance of two places along the chord through the earth, metres. Their heights count.
 double distanceM(const GeodeticPosition& a, const GeodeticPosition& b);
 /// Reports whether the move from a to b is a jump: farther than any aircraft flies in `seconds`. `silence`

@@ -83,8 +83,9 @@ struct ChoicesOf<SymbolColour> {
 };
 template <>
 struct ChoicesOf<HostProtocol> {
-  static constexpr ChoiceOption options[] = {
-      {"auto", "Recognise"}, {"native_fdm", "FlightGear native-fdm"}, {"cigi3", "CIGI 3"}};
+  static constexpr ChoiceOption options[] = {{"auto", "Recognise"}, {"native_fdm", "FlightGear native-fdm"},
+                                             {"cigi3", "CIGI 3"},   {"cigi4", "CIGI 4"},
+                                             {"dis", "DIS"},        {"x_plane", "X-Plane"}};
 };
 template <>
 struct ChoicesOf<MotionControl> {

@@ -29,7 +29,7 @@ enum class TerrainForm { tiles, patches, static_trees };
 /// Says how a tree node's error becomes its minimum viewer distance.
 enum class StaticDistanceRule { picture, factor };
 enum class ErrorMeasure { rms, maximum, as_published };
-enum class HostProtocol { automatic, native_fdm, cigi3 };
+enum class HostProtocol { automatic, native_fdm, cigi3, cigi4, dis, x_plane };
 /// The columns of document C's results: before, with the mechanism, and with LOD scale restoration.
 enum class MotionControl { off, lod_scale_and_blur, with_restoration };
 /// Says whose heading and pitch count: those of the view in the world, or of the head relative to the

@@ -50,6 +50,7 @@ class HostLink {
   HostClockOffset clock_;
   Extrapolator extrapolator_;
   double lastArrival_ = 0, lastJump_ = 0;
+  double promisedS_ = 0;  ///< how long the host may stay silent, if it promised a dead reckoning
   std::uint64_t jumps_ = 0;
   std::shared_ptr<const HostSymbols> symbols_;
 };
