@@ -23,6 +23,7 @@ struct PlacedRaster {
   Dataset data;
   std::array<double, 6> transform{};  ///< GDAL's: pixel corners to the CRS
   OGRSpatialReference crs;            ///< horizontal; axes as easting, northing or longitude, latitude
+  std::string name;                   ///< by which GDAL opens it
 };
 
 /// Says what a raster is opened for; `heights` refuses images.
