@@ -147,8 +147,12 @@ bool chooseElevation(std::vector<File>& files, const std::set<std::string>& foun
       const bool less = files[i]->evidence().score() < files[j]->evidence().score();
       File &weak = less ? files[i] : files[j], &strong = less ? files[j] : files[i];
       const Evidence& against = weak->evidence();
-      if (found.contains(weak->name()) && against.score() <= 0 &&
-          strong->evidence().score() >= against.score() + kClear) {
+      // Heights that are smooth, or say of themselves that they are heights, are not left out by points
+      // alone.
+      const int lead = strong->evidence().score() - against.score();
+      const bool unsaid = against.declared <= 1 && against.numbers <= 0;
+      if (found.contains(weak->name()) &&
+          ((against.score() <= 0 && lead >= kClear) || (unsaid && lead >= 2 * kClear))) {
         leaveOut(*weak,
                  "it contradicts " + strong->name() + " by " + by + ", and less speaks for it" +
                      (against.against.empty() ? "" : " (" + against.against + ")"),

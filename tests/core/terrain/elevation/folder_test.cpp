@@ -157,6 +157,15 @@ TEST_F(ElevationFolder, leavesOutWhatWasDerivedFromHeightsWhateverItsName) {
   }
 }
 
+TEST_F(ElevationFolder, leavesOutWhatContradictsHeightsThatNameTheirUnit) {
+  test::RasterRecipe named = recipe([](int c, int r) { return std::round(hill(c, r)); });
+  named.unit = "m";
+  write("z.tif", named);
+  // Smoother than slopes are, and beyond their range.
+  write("a.tif", recipe([](int c, int r) { return 150 + 145 * std::sin(c * 0.3) * std::cos(r * 0.2); }));
+  EXPECT_THAT(importHills(), HasSubstr("a.tif: expected elevation, found something else: it contradicts"));
+}
+
 TEST_F(ElevationFolder, leavesOutImagesOfAnyDepth) {
   heights("m.tif", GDT_Int16);
   test::RasterRecipe bands = recipe([](int c, int r) { return 900 + c * 7 + r % 13 * 40; }, GDT_UInt16);
