@@ -11,7 +11,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "trimtab/preset/file_io.h"
@@ -140,22 +142,50 @@ Result<std::string> readWhole(const fs::path& file, std::size_t mostBytes) {
   });
 }
 
+namespace {
+
+/// Sorts what is in a folder: files are visited, folders and links to folders wait for their turn. Returns
+/// false where `visit` wants no more.
+bool visitFolder(const fs::path& folder, const std::function<bool(const fs::path&)>& visit,
+                 std::vector<fs::path>& folders, std::set<fs::path>& links, Findings& left) {
+  std::error_code failed, ignored;
+  for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+    if (stopRequested()) return false;
+    const fs::file_type type = at->status(ignored).type();
+    if (type == fs::file_type::not_found && at->is_symlink(ignored))
+      left.push_back({Severity::warning, at->path().string(), "", "a file or folder", "a link to nothing"});
+    const bool isFile = type == fs::file_type::regular, isFolder = type == fs::file_type::directory;
+    if ((!isFile && !isFolder) || !checkIsData(at->path())) continue;
+    if (isFile && !visit(at->path())) return false;
+    if (isFolder && at->is_symlink(ignored)) links.insert(at->path());
+    if (isFolder && !at->is_symlink(ignored)) folders.push_back(at->path());
+  }
+  if (failed)
+    left.push_back({Severity::warning, folder.string(), "", "a folder that may be read", failed.message()});
+  return true;
+}
+
+}  // namespace
+
 Result<Done> visitFiles(const fs::path& folder, const std::function<bool(const fs::path&)>& visit) {
   if (const auto data = checkIsData(folder); !data) return data;
-  std::error_code failed, ignored;
-  for (fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, failed),
-       end;
-       !failed && at != end; at.increment(failed)) {
+  Findings left;
+  std::set<std::pair<dev_t, ino_t>> entered;
+  std::vector<fs::path> folders{folder};
+  // Links wait until no other folder is left, so that a folder is known by its own path where it has one.
+  std::set<fs::path> links;
+  while (!folders.empty() || !links.empty()) {
+    if (folders.empty()) folders.push_back(links.extract(links.begin()).value());
+    const fs::path at = std::move(folders.back());
+    folders.pop_back();
+    struct stat about {};
+    if (::stat(at.c_str(), &about) != 0 || !entered.emplace(about.st_dev, about.st_ino).second) continue;
+    const bool goesOn = visitFolder(at, visit, folders, links, left);
     if (stopRequested())
       return unreadable(folder, "to be looked through to the end", "a request to stop the program");
-    const bool isFile = at->is_regular_file(ignored), isFolder = !isFile && at->is_directory(ignored);
-    if ((isFile || isFolder) && !checkIsData(at->path())) {
-      at.disable_recursion_pending();
-      continue;
-    }
-    if (isFile && !visit(at->path())) break;
+    if (!goesOn) break;
   }
-  return Done{};
+  return {Done{}, std::move(left)};
 }
 
 Finding tooLargeForMemory(const fs::path& file) {

@@ -36,7 +36,8 @@ Json recipeJson(const BakeOptions& options, const std::vector<fs::path>& files) 
   Json recipe = {{"files", Json::array()}};
   for (const fs::path& file : files) {
     std::error_code error;
-    recipe["files"].push_back({{"name", file.filename().string()}, {"bytes", fs::file_size(file, error)}});
+    recipe["files"].push_back(
+        {{"name", file.filename().string()}, {"bytes", fs::file_size(containerOf(file), error)}});
   }
   if (options.imagery) recipe["imagery"] = options.imagery->filename().string();
   recipe["max_error_m"] = options.maxError ? Json(options.maxError->value()) : Json();
@@ -160,9 +161,9 @@ std::string stampOf(const fs::path& file) {
   std::error_code error;
   if (VSIStatBufL there; !fs::exists(file, error) && VSIStatL(file.c_str(), &there) == 0)
     return file.string() + ' ' + std::to_string(there.st_size) + ' ' + std::to_string(there.st_mtime);
-  const fs::path whole = fs::weakly_canonical(file, error);
-  return whole.string() + ' ' + std::to_string(fs::file_size(file, error)) + ' ' +
-         std::to_string(fs::last_write_time(file, error).time_since_epoch().count());
+  const fs::path whole = fs::weakly_canonical(file, error), onDisk = containerOf(file);
+  return whole.string() + ' ' + std::to_string(fs::file_size(onDisk, error)) + ' ' +
+         std::to_string(fs::last_write_time(onDisk, error).time_since_epoch().count());
 }
 
 /// Adds the stamps of a file and of all files that GDAL reads with it; each may have such files of its own.
@@ -174,7 +175,7 @@ void addStamps(const fs::path& file, std::set<std::string>& seen, std::vector<st
   std::vector<fs::path> files;
   {
     const GdalErrors quiet;
-    const Dataset data = owned(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER));
+    const Dataset data = owned(GDALDataset::Open(containerOf(file).c_str(), GDAL_OF_RASTER));
     if (!data) return;
     char** const names = data->GetFileList();
     for (char** name = names; name != nullptr && *name != nullptr; ++name) files.emplace_back(*name);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "census.h"
 #include "dted.h"
 #include "height_unit.h"
 #include "sample.h"
@@ -40,6 +41,7 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
   PlacedRaster& raster = file->raster_;
   GDALRasterBand& band = *raster.data->GetRasterBand(1);
   file->name_ = path.string();
+  file->evidence_ = declaredBy(*raster.data, path.filename().string());
   file->across_ = raster.data->GetRasterXSize();
   file->down_ = raster.data->GetRasterYSize();
   if (Findings faults = dtedFaults(raster, path, options.ignoreChecksums); !faults.empty()) {
@@ -109,8 +111,8 @@ Result<std::unique_ptr<ElevationFile>> ElevationFile::open(const fs::path& path,
 }
 
 std::unique_ptr<ElevationFile> ElevationFile::turned(double degrees) const {
-  std::unique_ptr<ElevationFile> file(
-      new ElevationFile(PlacedRaster{owned(nullptr), raster_.transform, raster_.crs, raster_.columns}));
+  std::unique_ptr<ElevationFile> file(new ElevationFile(
+      PlacedRaster{owned(nullptr), raster_.transform, raster_.crs, raster_.columns, raster_.name}));
   file->name_ = name_;
   file->own_ = own_;
   file->values_ = values_;
@@ -119,6 +121,7 @@ std::unique_ptr<ElevationFile> ElevationFile::turned(double degrees) const {
   file->direct_ = direct_, file->flipped_ = flipped_, file->masked_ = masked_;
   file->across_ = across_, file->down_ = down_;
   file->heights_ = heights_;
+  file->evidence_ = evidence_;
   file->turn(degrees);
   return file;
 }
@@ -152,15 +155,23 @@ Result<Done> ElevationFile::lookThrough(const Progress& progress, Findings& note
         continue;
       }
       if (auto read = readWindow(c, r, w, h, room); !read) return read.findings();
-      census.add(room.window, values_);
+      census.add(room.window, static_cast<std::size_t>(w), values_);
     }
   flipped_ = direct_ && raster_.transform[5] < 0;
   census.judge(values_);
-  heights_ = census.heights(values_);
-  const std::uint64_t untagged = census.untagged(values_);
-  if (untagged > 0)
-    notes.push_back(about(Severity::note, name_, "no-data", "a tag for the value that means none",
-                          std::to_string(untagged) + " posts with impossible heights, taken as voids"));
+  if (const auto impossible = census.impossible())
+    return about(Severity::error, name_, "band 1", "heights from -11500 to 9500 m", *impossible);
+  heights_ = census.heights();
+  weighNumbers(evidence_, census.shape(values_), GDALDataTypeIsInteger(band.GetRasterDataType()) != 0);
+  if (census.untagged() > 0) {
+    const std::string& byNumber = census.untaggedByNumber();
+    notes.push_back(about(Severity::note, name_, "no-data",
+                          values_.noData ? "heights, or the no-data value " + numberText(*values_.noData, 9)
+                                         : "a tag for the value that means none",
+                          std::to_string(census.untagged()) +
+                              " posts with impossible heights, taken as voids" +
+                              (byNumber.empty() ? "" : ": " + byNumber)));
+  }
   if (heights_ == 0) notes.push_back(about(Severity::warning, name_, "", "heights", "voids alone"));
   return Done{};
 }
@@ -169,7 +180,7 @@ Result<Done> ElevationFile::reopen() {
   if (isOpen()) return Done{};
   const GdalErrors quiet;
   raster_.data = owned(GDALDataset::FromHandle(
-      GDALOpenEx(name_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr)));
+      GDALOpenEx(raster_.name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, nullptr, nullptr, nullptr)));
   if (!raster_.data || raster_.data->GetRasterXSize() < across_ || raster_.data->GetRasterYSize() != down_)
     return about(Severity::error, name_, "", "the file as it was a moment ago", "another one, or none");
   return Done{};

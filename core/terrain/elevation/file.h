@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "evidence.h"
 #include "trimtab/terrain/elevation/georeference.h"
 #include "trimtab/terrain/elevation/source.h"
 #include "trimtab/terrain/grid/post_grid.h"
@@ -52,9 +53,14 @@ class ElevationFile {
   std::unique_ptr<ElevationFile> turned(double degrees) const;
   std::uint64_t heights() const { return heights_; }  ///< posts that are no voids
 
+  /// Returns what speaks for heights in the file, and against them.
+  const Evidence& evidence() const { return evidence_; }
+
+  /// Says what read() yields for a post of a grid with wider steps than the file's.
+  enum class Sampling { means, points };
   /// Sets the grid whose posts read() yields; call it before reading. Returns false if no post of the grid is
   /// near the file.
-  bool placeOn(const PostGrid& grid);
+  bool placeOn(const PostGrid& grid, Sampling sampling = Sampling::means);
   std::uint32_t firstColumn() const { return column_; }
   std::uint32_t columns() const { return columns_; }
   bool reaches(std::uint32_t firstRow, std::uint32_t rows) const {
@@ -97,6 +103,7 @@ class ElevationFile {
   bool direct_ = false, flipped_ = false, masked_ = false;
   std::int64_t across_ = 0, down_ = 0;  ///< posts of the raster
   std::uint64_t heights_ = 0;
+  Evidence evidence_;
   std::uint32_t column_ = 0, columns_ = 0, row_ = 0, rows_ = 0;
   std::uint32_t stride_ = 1;                ///< of exact places; bilinear between
   double footprintX_ = 1, footprintY_ = 1;  ///< the raster's posts to a step of the grid

@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <numbers>
-#include <string_view>
 
+#include "containers.h"
+#include "evidence.h"
+#include "file_kind.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/units/number.h"
-#include "values.h"
 
 namespace trimtab::terrain {
 
@@ -232,29 +231,6 @@ Dataset warped(GDALDataset& data, const OGRSpatialReference& crs, const PostGrid
 
 namespace {
 
-/// Says in a person's words what a file is that is no raster.
-std::string whatItIs(const fs::path& file, const GdalErrors& errors) {
-  const std::string reason = errors.last("GDAL gives no reason");
-  const bool unknown = reason.find("not recognized") != std::string::npos;
-  std::ifstream in(file, std::ios::binary);
-  std::string head(512, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
-  if (head.empty()) return "an empty file";
-  const auto begins = [&](std::string_view magic) { return head.compare(0, magic.size(), magic) == 0; };
-  std::string kind;
-  if (begins("\x1f\x8b") || begins("PK\x03\x04"))
-    kind = "a packed file, to be unpacked first";
-  else if (begins("\xd4\xc3\xb2\xa1") || begins("\xa1\xb2\xc3\xd4"))
-    kind = "a capture of packets";
-  else if (std::none_of(head.begin(), head.end(), [](char c) {
-             return static_cast<unsigned char>(c) < 32 && std::strchr("\t\n\v\f\r", c) == nullptr;
-           }))
-    kind = "text";
-  if (kind.empty()) return unknown ? "data that is not recognized" : reason;
-  return kind + (unknown ? ", not recognized as a raster" : ", not recognized as a raster (" + reason + ")");
-}
-
 /// Tells a path where nothing is, and a folder, from a file. A name that only GDAL understands, as of a file
 /// in an archive or of a part of a file, is left to it.
 Result<Done> isOneFile(const fs::path& file) {
@@ -279,20 +255,21 @@ Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, Raster
   if (neverEnds(file))
     return about(Severity::error, file, "", "a raster that GDAL can read", "a pipe or a device");
   Findings notes;
+  auto name = gdalNameOf(file);
+  if (!name) return name.findings();
   PlacedRaster opened{owned(GDALDataset::FromHandle(
-                          GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                          GDALOpenEx(name->c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                      nullptr, nullptr, nullptr))),
                       {},
                       degreesOfWgs84(),
-                      0};
+                      0,
+                      std::move(name).value()};
   if (!opened.data)
     return about(Severity::error, file, "", "a raster that GDAL can read", whatItIs(file, errors));
   if (opened.data->GetRasterCount() < 1)
     return about(Severity::error, file, "", "a raster with a band", "none");
-  if (kind == RasterKind::heights && looksLikeImage(*opened.data))
-    return about(Severity::error, file, "band 1", "heights",
-                 "an image of " + std::to_string(opened.data->GetRasterCount()) +
-                     " bands of bytes, which can be draped over elevation");
+  if (const auto image = imageIn(*opened.data); image && kind == RasterKind::heights)
+    return about(Severity::error, file, "band 1", "heights", *image + ", which can be draped over elevation");
   errors.moveTo(notes, file.string(), Severity::warning);
   opened.columns = opened.data->GetRasterXSize();
   const OGRSpatialReference* crs = opened.data->GetSpatialRef();

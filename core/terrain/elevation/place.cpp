@@ -19,7 +19,7 @@ double snapped(double x) {
 
 }  // namespace
 
-bool ElevationFile::placeOn(const PostGrid& grid) {
+bool ElevationFile::placeOn(const PostGrid& grid, Sampling sampling) {
   grid_ = grid;
   // A post beyond its own, so that neighbours meet; two where its posts stand askew to the grid's.
   const auto span = [](double from, double to, std::uint32_t count) {
@@ -41,11 +41,16 @@ bool ElevationFile::placeOn(const PostGrid& grid) {
     footprintX_ = grid.stepLongitude / own_.stepLongitude;
     footprintY_ = grid.stepLatitude / own_.stepLatitude;
     stride_ = vertical_.toFile ? 16 : 1;
+    if (sampling == Sampling::points) footprintX_ = footprintY_ = stride_ = 1;
     return true;
   }
   const OGRSpatialReference from = degreesOfWgs84();
   toFile_.reset(OGRCreateCoordinateTransformation(&from, &raster_.crs));
   if (!toFile_ || !GDALInvGeoTransform(raster_.transform.data(), inverse_.data())) return false;
+  if (sampling == Sampling::points) {
+    footprintX_ = footprintY_ = stride_ = 1;
+    return true;
+  }
   const std::uint32_t c = column_ + columns_ / 2, r = row_ + rows_ / 2;
   const auto here = exact(r, c, 2, 1), up = exact(r + 1, c, 1, 1);
   footprintX_ = std::max(std::abs(here[1].x - here[0].x), std::abs(up[0].x - here[0].x));

@@ -8,7 +8,9 @@
 #include <limits>
 #include <list>
 #include <numeric>
+#include <set>
 
+#include "choose.h"
 #include "file.h"
 #include "merge.h"
 #include "trimtab/terrain/elevation/files.h"
@@ -324,29 +326,50 @@ class MergedElevation final : public ElevationSource {
 
 Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const fs::path> sources,
                                                        const ElevationOptions& options) {
-  const auto paths = elevationFiles(sources);
+  const auto paths = elevationPaths(sources);
   if (!paths) return paths.findings();
-  Findings findings;
+  Findings findings = paths.findings();
   Files files;
-  bool failed = false;
+  std::set<std::string> found;  // in folders
+  bool failed = false, stopped = false;
   for (std::size_t i = 0; i < paths->size(); ++i) {
-    bool stopped = false;
+    const ElevationPath& path = (*paths)[i];
     const auto share = [&](double fraction, const std::string& what) {
       stopped =
           options.progress &&
           !options.progress((static_cast<double>(i) + fraction) / static_cast<double>(paths->size()), what);
       return !stopped;
     };
-    auto file = ElevationFile::open((*paths)[i], options.reading, share);
-    findings.insert(findings.end(), file.findings().begin(), file.findings().end());
+    auto file = ElevationFile::open(path.file, options.reading, share);
+    for (Finding finding : file.findings()) {
+      // A broken file of a folder does not stop the others.
+      if (!path.named && !stopped && finding.severity == Severity::error)
+        finding.severity = Severity::warning, finding.found += "; left out";
+      findings.push_back(std::move(finding));
+    }
     if (stopped) return findings;
+    if (!path.named) found.insert(path.file.string());
     if (file)
       files.push_back(std::move(file).value());
     else
-      failed = true;
+      failed = failed || path.named;
   }
-  if (failed || files.empty()) return findings;
-  turnTogether(files);
+  if (failed) return findings;
+  if (!files.empty()) {
+    turnTogether(files);
+    const auto goesOn = [&](double, const std::string& what) {
+      return !options.progress || options.progress(1, what);
+    };
+    if (!chooseElevation(files, found, goesOn, findings)) {
+      findings.push_back(cancelled("elevation"));
+      return findings;
+    }
+  }
+  if (files.empty()) {
+    findings.push_back({Severity::error, "elevation", "", "a file with heights",
+                        "none of " + std::to_string(paths->size()) + " rasters"});
+    return findings;
+  }
   std::stable_sort(files.begin(), files.end(),
                    [](const auto& a, const auto& b) { return fineness(*a) < fineness(*b); });
   const auto grid = gridOf(files, options);

@@ -12,36 +12,7 @@ namespace {
 
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 
-float metresOf(float raw, const Values& values) {
-  return static_cast<float>(raw * values.scale + values.offset);
-}
-/// Deeper than any shore.
-bool isDeep(float metres) {
-  return metres < -500;
-}
-bool isPossible(float metres) {
-  return metres >= -11500 && metres <= 9500;
-}
-/// Reports whether a number is so far from any height that it means none.
-bool isAbsurd(float metres) {
-  return !(metres > -15000 && metres < 40000);
-}
-std::optional<std::size_t> voidNumber(float raw) {
-  const auto* const number = std::find(kVoidNumbers.begin(), kVoidNumbers.end(), raw);
-  if (number == kVoidNumbers.end()) return {};
-  return static_cast<std::size_t>(number - kVoidNumbers.begin());
-}
-float noDataOf(const Values& values) {
-  return values.noData ? static_cast<float>(*values.noData) : kVoid;
-}
-
 }  // namespace
-
-bool looksLikeImage(GDALDataset& data) {
-  GDALRasterBand* band = data.GetRasterCount() > 0 ? data.GetRasterBand(1) : nullptr;
-  return band == nullptr || (data.GetRasterCount() >= 3 && band->GetRasterDataType() == GDT_Byte) ||
-         band->GetColorTable() != nullptr;
-}
 
 Values valuesOf(GDALRasterBand& band, double unit) {
   Values values;
@@ -55,58 +26,11 @@ Values valuesOf(GDALRasterBand& band, double unit) {
   return values;
 }
 
-void Census::add(std::span<const float> raw, const Values& values) {
-  const float noData = noDataOf(values);
-  const bool tagged = values.noData.has_value();
-  posts_ += raw.size();
-  for (const float v : raw) {
-    const float metres = metresOf(v, values);
-    if (v == noData || std::isnan(v)) {
-      ++voids_;
-      continue;
-    }
-    if (!tagged)
-      if (const auto number = voidNumber(v)) {
-        ++numbers_[*number].posts;
-        continue;
-      }
-    if (!isPossible(metres)) {
-      ++impossible_;
-      if (isAbsurd(metres)) ++absurd_;
-      continue;
-    }
-    if (isDeep(metres)) ++deep_;
-    if (tagged) continue;
-    for (std::size_t k = 0; k < kVoidNumbers.size(); ++k)
-      if (kVoidNumbers[k] > 0 ? v >= 0.9f * kVoidNumbers[k] : v <= 0.9f * kVoidNumbers[k]) ++numbers_[k].like;
-  }
-}
-
-void Census::judge(Values& values) const {
-  values.deepIsVoid = !values.noData && absurd_ > 0;
-  for (std::size_t k = 0; k < kVoidNumbers.size(); ++k) {
-    const auto& [posts, like] = numbers_[k];
-    values.isVoid[k] = posts > 0 && (like < posts || !isPossible(metresOf(kVoidNumbers[k], values)));
-    if (values.isVoid[k]) values.deepIsVoid = true;
-  }
-}
-
-std::uint64_t Census::untagged(const Values& values) const {
-  std::uint64_t untagged = impossible_ + (values.deepIsVoid ? deep_ : 0);
-  for (std::size_t k = 0; k < kVoidNumbers.size(); ++k)
-    if (values.isVoid[k] || (values.deepIsVoid && isDeep(metresOf(kVoidNumbers[k], values))))
-      untagged += numbers_[k].posts;
-  return untagged;
-}
-
 void toMetres(std::span<float> raw, const Values& values) {
-  const float noData = noDataOf(values);
-  const bool numbers = std::find(values.isVoid.begin(), values.isVoid.end(), true) != values.isVoid.end();
   for (float& v : raw) {
     const float metres = metresOf(v, values);
-    bool isVoid = v == noData || !isPossible(metres) || (values.deepIsVoid && isDeep(metres));
-    if (numbers && !isVoid)
-      if (const auto number = voidNumber(v)) isVoid = values.isVoid[*number];
+    const bool isVoid = isTagged(v, values) || !isPossible(metres) || metres < values.deepest ||
+                        std::find(values.voids.begin(), values.voids.end(), v) != values.voids.end();
     v = isVoid ? kVoid : metres;
   }
 }

@@ -2,62 +2,51 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "trimtab/terrain/elevation/georeference.h"
 
 /// Converts the numbers of a raster to metres above the EGM96 geoid.
 namespace trimtab::terrain {
 
-/// Tells whether a raster is an image rather than heights.
-bool looksLikeImage(GDALDataset& data);
-
-/// Numbers that mark voids in files whose band names no no-data value.
+/// Numbers that mark voids in many files, whatever the band names.
 inline constexpr std::array<float, 4> kVoidNumbers = {-32768, -32767, -9999, 32767};
 
 struct Values {
   std::optional<double> noData;
   double scale = 1, offset = 0;  ///< metres = value * scale + offset
-  /// Which of kVoidNumbers are voids in this file.
-  std::array<bool, kVoidNumbers.size()> isVoid{};
-  /// Voids without a tag were found: whatever lies under 500 m below the sea is taken for one too (the lowest
-  /// shore is at -430 m, and resampling makes mixtures). Without such voids these depths are a sea floor.
-  bool deepIsVoid = false;
+  /// Numbers without a tag that are voids in this file.
+  std::vector<float> voids;
+  /// Metres; what lies deeper is a void too.
+  float deepest = -std::numeric_limits<float>::infinity();
 };
+
+inline float metresOf(float raw, const Values& values) {
+  return static_cast<float>(raw * values.scale + values.offset);
+}
+/// Tells whether a number is the band's no-data value, or no number.
+inline bool isTagged(float raw, const Values& values) {
+  return std::isnan(raw) || (values.noData && raw == static_cast<float>(*values.noData));
+}
+/// Deeper than any shore: the lowest is at -430 m.
+inline bool isDeep(float metres) {
+  return metres < -500;
+}
+inline bool isPossible(float metres) {
+  return metres >= -11500 && metres <= 9500;
+}
+/// Tells whether a number is so far from any height that it means none.
+inline bool isAbsurd(float metres) {
+  return !(metres > -15000 && metres < 40000);
+}
 
 /// Reads the band's tags. `unit`: metres per unit of its heights.
 Values valuesOf(GDALRasterBand& band, double unit);
-
-/// Statistics of all numbers of a file, from which its void numbers are recognised.
-class Census {
- public:
-  void add(std::span<const float> raw, const Values& values);
-  /// Counts the posts of a block that the file does not store; it reads as the no-data value, or as 0.
-  void leaveOut(std::uint64_t count, const Values& values) {
-    posts_ += count, voids_ += values.noData ? count : 0;
-  }
-  /// Says what means a void in the file. Where the band names its no-data value, any other height that can be
-  /// on earth is a height. Where it names none, so is one of kVoidNumbers if as many posts or more come
-  /// within a tenth of it or go further: -9999 in a deep sea, 32767 of mountains in centimetres.
-  void judge(Values& values) const;
-  /// Heights, and voids that have no tag, as `judge` said.
-  std::uint64_t heights(const Values& values) const { return posts_ - voids_ - untagged(values); }
-  std::uint64_t untagged(const Values& values) const;
-
- private:
-  struct Number {
-    std::uint64_t posts = 0, like = 0;  ///< like: other possible heights within a tenth, or beyond
-  };
-  std::uint64_t posts_ = 0, voids_ = 0;  ///< voids: those with a tag
-  std::array<Number, kVoidNumbers.size()> numbers_{};
-  std::uint64_t deep_ = 0;        ///< under 500 m below the sea, but for the numbers
-  std::uint64_t impossible_ = 0;  ///< once in metres, but for the numbers
-  std::uint64_t absurd_ = 0;      ///< of these, what no mistake in a height makes
-};
 
 /// Converts numbers to metres, and voids to NaN, in place.
 void toMetres(std::span<float> raw, const Values& values);

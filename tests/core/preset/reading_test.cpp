@@ -78,7 +78,8 @@ TEST(ReadWhole, takesNoMoreFromAPipeThanItMay) {
               testing::AnyOf(HasSubstr("at most 64 MiB"), HasSubstr("after five seconds")));
   // A writer that comes after the reader has given up would wait for another one for ever.
   for (; !written; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
-    if (const int reader = ::open((dir / "pipe").c_str(), O_RDONLY | O_NONBLOCK); reader >= 0) ::close(reader);
+    if (const int reader = ::open((dir / "pipe").c_str(), O_RDONLY | O_NONBLOCK); reader >= 0)
+      ::close(reader);
   writer.join();
 }
 
@@ -155,6 +156,28 @@ TEST(VisitFiles, leavesOutWhatIsNoDataAndSaysSoOfTheFolderItself) {
     requestStop();
     return toString(visitFiles(dir.path(), visit).findings()).find("a request to stop") != std::string::npos;
   }));
+}
+
+TEST(VisitFiles, entersEachFolderOnceAndWarnsOfWhatItCannotFollow) {
+  const ScratchDir dir, other;
+  fs::create_directories(dir / "top/deep");
+  fs::create_directories(other / "far");
+  for (const fs::path& file : {dir / "top/1", dir / "top/deep/2", other / "3", other / "far/4"})
+    test::writeFile(file, "");
+  fs::create_directory_symlink(other.path(), dir / "top/elsewhere");
+  fs::create_directory_symlink(other / "far", dir / "top/again");
+  fs::create_directory_symlink(dir / "top", dir / "top/deep/up");
+  fs::create_symlink("nowhere", dir / "top/lost.tif");
+  std::vector<fs::path> files;
+  const auto visited =
+      visitFiles(dir / "top", [&](const fs::path& file) { return files.push_back(file), true; });
+  ASSERT_TRUE(visited);
+  std::sort(files.begin(), files.end());
+  EXPECT_EQ(files, (std::vector<fs::path>{dir / "top/1", dir / "top/again/4", dir / "top/deep/2",
+                                          dir / "top/elsewhere/3"}));
+  ASSERT_EQ(visited.findings().size(), 1u);
+  EXPECT_EQ(toString(visited.findings()[0]),
+            (dir / "top/lost.tif").string() + ": expected a file or folder, found a link to nothing");
 }
 
 }  // namespace

@@ -26,9 +26,10 @@ inline constexpr std::size_t kLargestRecording = std::size_t{4} << 30;
 
 /// Sees that a file may take this name: nothing has it, or a file that may be written.
 Result<Done> canReplace(const std::filesystem::path& file);
-/// Calls `visit` for each regular file in a folder and below it, in no order, until it returns false. Leaves
-/// out links to folders, folders that may not be entered, and what checkIsData() refuses; fails if that is
-/// the folder itself, or if the program is asked to stop.
+/// Calls `visit` for each regular file in a folder and below it, in no order, until it returns false. Enters
+/// each folder once, by whatever links it is reached. Warns of folders that may not be entered and of links to
+/// nothing. Leaves out what checkIsData() refuses; fails if that is the folder itself, or if the program is
+/// asked to stop.
 Result<Done> visitFiles(const std::filesystem::path& folder,
                         const std::function<bool(const std::filesystem::path&)>& visit);
 

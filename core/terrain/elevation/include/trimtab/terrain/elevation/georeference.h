@@ -25,6 +25,7 @@ struct PlacedRaster {
   OGRSpatialReference crs;            ///< horizontal; axes as easting, northing or longitude, latitude
   /// Columns that are used, from the first; all, unless the raster goes more than once round the earth.
   int columns = 0;
+  std::string name;                   ///< by which GDAL opens it
 };
 
 /// Says what a raster is opened for; `heights` refuses images.
