@@ -63,7 +63,8 @@ class Reader {
     line = trimmed(line.substr(0, comment));
     if (line.empty()) return;
     const std::size_t colon = line.find(':');
-    if (colon == std::string_view::npos) return lines_.refuse("", "key: value", line);
+    if (colon == std::string_view::npos)
+      return lines_.refuse("", "key: value, as in a file that is whole; write it again", line);
     const std::string_view key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
     if (key == "rule" && block_ == "RuleBlock") {
       if (rules_.size() == kMostRules)
@@ -97,7 +98,11 @@ class Reader {
       return lines_.refuse(key, "a property of " + (block_.empty() ? "an engine" : std::string(block_)),
                            "another");
     if (!at->values.empty() && std::find(at->values.begin(), at->values.end(), value) == at->values.end())
-      return lines_.refuse(key, std::string(at->values.front()), value);
+      return lines_.refuse(key,
+                           std::string(at->values.front()) +
+                               (key == "enabled" ? "; remove what is switched off, or switch it on"
+                                                 : "; change it in the tool that wrote the file"),
+                           value);
     if (key == "conjunction") system_.conjunction = {std::string(value), lines_.place()};
     if (key == "disjunction") system_.disjunction = {std::string(value), lines_.place()};
     if (key == "lock-range") variable_->lockRange = value == "true";

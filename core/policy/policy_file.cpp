@@ -96,7 +96,8 @@ class Translation {
     setNorm();
     if (findings_.empty())
       for (const fuzzy_system::Rule& rule : system_.rules) addRule(rule);
-    if (policy_.rules.empty() && findings_.empty()) refuse(where_, "rule", "at least one rule", "none");
+    if (policy_.rules.empty() && findings_.empty())
+      refuse(where_, "rule", "at least one rule; if the file had some, it is cut: write it again", "none");
     if (!findings_.empty()) return firstOf(findings_, where_);
     const auto compiled = compile(policy_, where_);
     if (compiled) return std::move(policy_);
@@ -133,8 +134,10 @@ class Translation {
 
   void checkOutput(const fuzzy_system::Variable& output) {
     if (!std::isnan(output.unfired) && !(output.name == kFormerOutput && output.unfired == 0))
-      refuse(output.unfiredWhere, "default", "nan: a lever that no rule sets is neutral",
-             numberText(output.unfired));
+      refuse(
+          output.unfiredWhere, "default",
+          "nan: a lever that no rule sets is neutral; write nan, or add a rule for what the default was for",
+          numberText(output.unfired));
     for (const fuzzy_system::Term& term : output.terms)
       if (term.shape != "Constant" || term.numbers.size() != 1)
         refuse(term.where, "term " + term.name.substr(0, 40), "Constant with one number",

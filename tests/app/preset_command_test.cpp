@@ -133,7 +133,10 @@ TEST(PresetCommand, refusesRuleFilesWithLineExpectedAndFound) {
   const Ran ran = preset("policy import " + file + " -o -");
   EXPECT_EQ(ran.exitCode, 1);
   EXPECT_EQ(ran.out, "");
-  EXPECT_THAT(ran.err, HasSubstr("error: " + file + ":3: enabled: expected true, found maybe"));
+  EXPECT_THAT(
+      ran.err,
+      HasSubstr("error: " + file +
+                ":3: enabled: expected true; remove what is switched off, or switch it on, found maybe"));
   EXPECT_EQ(preset("policy import " + file + "x -o -").exitCode, 2) << "which language?";
 }
 

@@ -4,10 +4,13 @@
 #include <charconv>
 #include <cmath>
 
+#include "column_advice.h"
 #include "trimtab/units/text.h"
 
 namespace trimtab {
 namespace {
+
+constexpr std::string_view kAdvice = "map the column, as ";
 
 /// Takes the text up to the next comma that does not stand in quotes.
 std::string_view takeAssignment(std::string_view& text) {
@@ -61,6 +64,25 @@ bool readSource(std::string_view text, ColumnSource& source) {
 
 }  // namespace
 
+std::string columnText(std::string_view name) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return c == '_' || c == '.' || c == '#' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
+           (c >= 'A' && c <= 'Z');
+  });
+  if (plain) return std::string(name);
+  // A name is found by its letters and digits, too; a quotation mark cannot stand in quotes.
+  std::string text = '"' + std::string(name) + '"';
+  std::replace(text.begin() + 1, text.end() - 1, '"', '_');
+  return text;
+}
+
+std::string mapAdvice(std::initializer_list<std::string> maps) {
+  std::string text;
+  for (const std::string& map : maps)
+    if (!map.empty()) text.append(text.empty() ? kAdvice : " or ").append(map);
+  return "name the unit, or " + text;
+}
+
 Result<ColumnMap> parseColumnMap(std::string_view text) {
   ColumnMap map;
   Findings findings;
@@ -84,9 +106,8 @@ Result<ColumnMap> parseColumnMap(std::string_view text) {
 
 bool mapMayHelp(const Findings& findings) {
   return std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
-    return finding.severity == Severity::error &&
-           (finding.found.find("map the column") != std::string::npos ||
-            finding.expected.starts_with("the columns of a "));
+    return finding.severity == Severity::error && (finding.found.find(kAdvice) != std::string::npos ||
+                                                   finding.expected.starts_with("the columns of a "));
   });
 }
 

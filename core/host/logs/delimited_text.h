@@ -35,6 +35,7 @@ class DelimitedText {
   /// "#1", "#2" and so on.
   const std::vector<std::string>& header() const { return header_; }
   bool hasHeader() const { return hasHeader_; }
+  const std::string& file() const { return where_; }
   std::string headerPlace() const { return where_ + ':' + std::to_string(headerLine_); }
   /// Says how the table begins, for a refusal: the names of its columns and the cells of the first row.
   std::string beginning() const;

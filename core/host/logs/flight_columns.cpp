@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "column_advice.h"
 #include "core/host/limits.h"
 #include "foreign_file.h"
 #include "profiles.h"
@@ -104,7 +105,9 @@ class Search {
     const LogProfile* profile = flightProfile(table_.header());
     if (profile) takeProfile(*profile);
     takeMap(map);
+    const bool altitudeMapped = found_.has(kAltitudeFt);
     for (std::size_t q = 0; q < kFlightQuantities; ++q) {
+      if (q == kHeightM && altitudeMapped) continue;
       const ColumnName own = columnName(nameOf(q));
       const std::array<std::string_view, 1> names{own.base};
       const std::array units{own.unit};
@@ -176,10 +179,9 @@ class Search {
         missing(q, "a column of this name", "none in the header");
       else if (const auto column = columns_.find(kAltitudes, kNoUnit, twice); column && !found_.has(kHeightM))
         missing(q, "a unit in the name of the altitude, as altitude_ft or altitude_m",
-                '"' + column->name +
-                    "\", which may be feet or metres: name the unit, or map the column, as "
-                    "altitude_ft=" +
-                    column->name + " or altitude_m=" + column->name);
+                '"' + column->name + "\", which may be feet or metres: " +
+                    mapAdvice({"altitude_ft=" + columnText(column->name),
+                               "altitude_m=" + columnText(column->name)}));
       else if (!found_.has(kHeightM))
         missing(q, "a column of this name", "none in the header");
     }

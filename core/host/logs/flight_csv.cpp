@@ -238,17 +238,18 @@ void Parser::wrapLongitudes() {
 void Parser::findAngleUnit() {
   UnnamedAngles angles;
   std::vector<Degrees Attitude::*> members;
-  const auto add = [&](FlightQuantity quantity, Degrees Attitude::*member) {
+  const auto add = [&](FlightQuantity quantity, const char* name, Degrees Attitude::*member) {
     if (!has(quantity) || columns_.at[quantity]->unit != Unit::none) return;
     if (quantity == kPitch) angles.maybePitch.push_back(members.size());
     members.push_back(member);
     angles.names.push_back(columns_.at[quantity]->name);
+    angles.quantities.push_back(name);
     auto& column = angles.columns.emplace_back();
     for (const AircraftState& state : flight_.states) column.push_back((state.attitude.*member).value());
   };
-  add(kHeading, &Attitude::heading);
-  add(kPitch, &Attitude::pitch);
-  add(kRoll, &Attitude::roll);
+  add(kHeading, "heading", &Attitude::heading);
+  add(kPitch, "pitch", &Attitude::pitch);
+  add(kRoll, "roll", &Attitude::roll);
   if (members.empty()) return;
   constexpr double kAlongDeg = 30, kAstrayDeg = 45, kDegreesOfRadian = Radians{1}.in<Degrees>();
   Unit unit = Unit::none;

@@ -6,11 +6,9 @@
 
 #include "core/host/limits.h"
 #include "delimited_text.h"
-#include "foreign_file.h"
+#include "head_columns.h"
 #include "log_angles.h"
-#include "log_columns.h"
 #include "log_time.h"
-#include "profiles.h"
 #include "trimtab/host/head_log.h"
 #include "trimtab/preset/file_io.h"
 
@@ -24,31 +22,15 @@ constexpr double kLargestDeg = 1e6;
 /// Trackers give 2,000 samples a second to one in two seconds. A head may rest, and turns at most so fast.
 constexpr LogMotion kHeadMotion{0.0005, 2, 0, 3000};
 
-constexpr std::array<std::string_view, 2> kNamedTimes{"time", "timestamp"};
-constexpr std::array<std::string_view, 5> kTimes{"timestamp", "time", "seconds", "t", "time_stamp"};
-constexpr std::array<std::string_view, 1> kTimeSteps{"time_step"};
-constexpr std::array<std::string_view, 4> kHeadings{"head_heading", "head_yaw", "heading", "yaw"};
-constexpr std::array<std::string_view, 2> kPitches{"head_pitch", "pitch"};
-constexpr std::array<std::string_view, 2> kRolls{"head_roll", "roll"};
-constexpr std::array<std::string_view, 4> kQuaternion{"head_qw", "head_qx", "head_qy", "head_qz"};
-constexpr std::array kAngleUnits{Unit::degrees, Unit::radians, Unit::none};
-constexpr std::array kTimeUnits{Unit::milliseconds, Unit::seconds, Unit::microseconds, Unit::nanoseconds};
-constexpr std::array kMappedTimeUnits{Unit::milliseconds, Unit::seconds, Unit::microseconds,
-                                      Unit::nanoseconds, Unit::none};
-constexpr std::array kNoUnit{Unit::none};
-
-template <class Names>
-bool holds(const Names& names, const auto& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 class Reader {
  public:
   Reader(std::string_view text, const std::string& where, BadRows badRows, const ColumnMap& map)
       : table_(text, where), where_(where), badRows_(badRows), map_(map) {}
 
   Result<HeadLog> read() {
-    if (!table_.open(findings_) || !findColumns()) return findings_;
+    if (!table_.open(findings_)) return findings_;
+    columns_ = headColumns(table_, map_, findings_);
+    if (hasError(findings_)) return findings_;
     readRows();
     if (rows_.empty() && bad_ == 0) return refusal("at least one row below the header", "none");
     if (!toDegrees()) return findings_;
@@ -62,7 +44,8 @@ class Reader {
   }
 
  private:
-  static constexpr std::size_t kHeading = 0, kPitch = 1, kRoll = 2, kAngles = 3;
+  static constexpr std::size_t kHeading = HeadColumns::kHeading, kPitch = HeadColumns::kPitch,
+                               kRoll = HeadColumns::kRoll, kAngles = HeadColumns::kAngles;
 
   struct Row {
     double time = 0;
@@ -77,11 +60,6 @@ class Reader {
     return findings_;
   }
 
-  bool findColumns();
-  std::optional<LogColumn>* mapped(std::string_view name);
-  void takeMap(const LogColumns& columns, const ColumnMap& map, bool mayMiss);
-  std::optional<LogColumn> find(const LogColumns& columns, std::span<const std::string_view> names,
-                                std::span<const Unit> units);
   void readRows();
   void readTime(Row& row, bool& good);
   void readQuaternion(Row& row, bool& good);
@@ -103,92 +81,12 @@ class Reader {
   const ColumnMap& map_;
   std::size_t bad_ = 0;
   Findings findings_;
-  std::optional<LogColumn> time_;
-  bool timeIsStep_ = false, clock_ = false;
-  double elapsed_ = 0;  ///< of time steps
-  std::array<std::optional<LogColumn>, kAngles> columns_;
-  std::array<std::optional<LogColumn>, 4> quaternion_;
+  HeadColumns columns_;
+  bool clock_ = false;
+  double elapsed_ = 0;                ///< of time steps
   std::size_t pitchColumn_ = kPitch;  ///< the column that holds the pitch, whatever its name
   std::vector<Row> rows_;
 };
-
-std::optional<LogColumn> Reader::find(const LogColumns& columns, std::span<const std::string_view> names,
-                                      std::span<const Unit> units) {
-  bool twice = false;
-  auto found = columns.find(names, units, twice);
-  if (twice)
-    findings_.push_back(
-        {Severity::error, table_.headerPlace(), found->name, "one column of this name", "two"});
-  return found;
-}
-
-/// Returns where a map's quantity is kept; null if no head log has one of this name.
-std::optional<LogColumn>* Reader::mapped(std::string_view name) {
-  const ColumnName wanted = columnName(name);
-  if (holds(kAngleUnits, wanted.unit)) {
-    if (holds(kHeadings, wanted.base)) return &columns_[kHeading];
-    if (holds(kPitches, wanted.base)) return &columns_[kPitch];
-    if (holds(kRolls, wanted.base)) return &columns_[kRoll];
-  }
-  for (std::size_t i = 0; i < kQuaternion.size(); ++i)
-    if (name == kQuaternion[i]) return &quaternion_[i];
-  const bool step = holds(kTimeSteps, wanted.base);
-  if (!holds(kMappedTimeUnits, wanted.unit) || (!step && !holds(kNamedTimes, wanted.base))) return nullptr;
-  timeIsStep_ = step;
-  return &time_;
-}
-
-/// Takes the columns that a map names. Those of a profile may be missing.
-void Reader::takeMap(const LogColumns& columns, const ColumnMap& map, bool mayMiss) {
-  for (const auto& [name, source] : map) {
-    const auto found = columns.find(source);
-    if (!found && mayMiss) continue;
-    std::optional<LogColumn>* const place = mapped(name);
-    if (place && found) {
-      *place = found;
-      (*place)->unit = columnName(name).unit;
-      continue;
-    }
-    findings_.push_back(
-        {Severity::error, table_.headerPlace(), name,
-         place ? "one column named \"" + source.column + '"'
-               : "one of time_s, time_step_s, head_heading_deg, head_pitch_deg, head_roll_deg, head_qw, "
-                 "head_qx, head_qy, head_qz",
-         place ? table_.beginning() : "a quantity that no head log has"});
-  }
-}
-
-bool Reader::findColumns() {
-  const LogColumns columns(table_.header());
-  if (const LogProfile* profile = headProfile(table_.header())) {
-    const Result<ColumnMap> map = parseColumnMap(profile->columns);
-    takeMap(columns, *map, true);
-    note(profileText(*profile));
-  }
-  takeMap(columns, map_, false);
-  if (!time_) time_ = find(columns, kNamedTimes, kTimeUnits);
-  if (!time_) time_ = find(columns, kTimes, kNoUnit);
-  if (!columns_[kHeading]) columns_[kHeading] = find(columns, kHeadings, kAngleUnits);
-  if (!columns_[kPitch]) columns_[kPitch] = find(columns, kPitches, kAngleUnits);
-  if (!columns_[kRoll]) columns_[kRoll] = find(columns, kRolls, kAngleUnits);
-  for (std::size_t i = 0; i < kQuaternion.size(); ++i)
-    if (!quaternion_[i]) quaternion_[i] = find(columns, std::span(kQuaternion).subspan(i, 1), kNoUnit);
-  bool complete = true;
-  const auto missing = [&](const char* key, const char* expected) {
-    complete = false;
-    findings_.push_back({Severity::error, table_.headerPlace(), key, expected, "none in the header"});
-  };
-  if (!time_) missing("time", "a column time_s, timestamp or time_ms");
-  const auto there = static_cast<std::size_t>(std::count_if(
-      quaternion_.begin(), quaternion_.end(), [](const auto& part) { return part.has_value(); }));
-  if (there > 0 && there < 4) missing("head_qw", "all of head_qw, head_qx, head_qy and head_qz");
-  if (there == 0 && !columns_[kHeading]) missing("heading", "a column head_heading_deg, heading or yaw");
-  if (there == 0 && !columns_[kPitch]) missing("pitch", "a column head_pitch_deg or pitch");
-  if (!complete)
-    findings_.push_back({Severity::error, table_.headerPlace(), "", "the columns of a head log",
-                         seemsToBe(table_.header()) + table_.beginning()});
-  return !hasError(findings_);
-}
 
 /// Names the cells of the first bad rows.
 void Reader::nameBadCell(std::size_t line, const std::string& column, std::string expected,
@@ -211,29 +109,30 @@ std::string_view Reader::readCell(const LogColumn& column, double most, double& 
 
 /// Reads a number, a clock, or the time since the row above.
 void Reader::readTime(Row& row, bool& good) {
-  const std::string_view cell = time_->cell(table_.cells());
+  const std::string_view cell = columns_.time->cell(table_.cells());
   if (rows_.empty() && bad_ == 0) clock_ = readClock(cell).has_value();
   if (clock_) {
     const auto time = readClock(cell);
-    if (!time) nameBadCell(row.line, time_->name, "a time of a clock, as in the first row", cellText(cell));
+    if (!time)
+      nameBadCell(row.line, columns_.time->name, "a time of a clock, as in the first row", cellText(cell));
     good = good && time.has_value();
     row.time = time.value_or(0) + elapsed_;
     if (good && !rows_.empty()) elapsed_ += dayAfter(rows_.back().time, row.time);
     row.time = time.value_or(0) + elapsed_;
     return;
   }
-  readCell(*time_, kLargestTime, row.time, good);
-  if (timeIsStep_ && good) row.time = elapsed_ += row.time;
+  readCell(*columns_.time, kLargestTime, row.time, good);
+  if (columns_.timeIsStep && good) row.time = elapsed_ += row.time;
 }
 
 /// Reads an attitude as a quaternion on the axes forward, right and down. Its length does not matter.
 void Reader::readQuaternion(Row& row, bool& good) {
   std::array<double, 4> q{};
-  for (std::size_t i = 0; i < q.size(); ++i) readCell(*quaternion_[i], kLargestDeg, q[i], good);
+  for (std::size_t i = 0; i < q.size(); ++i) readCell(*columns_.quaternion[i], kLargestDeg, q[i], good);
   const auto [w, x, y, z] = q;
   const double square = w * w + x * x + y * y + z * z;
   if (good && !(square > 0)) {
-    nameBadCell(row.line, quaternion_[0]->name, "a rotation", "a quaternion of length 0");
+    nameBadCell(row.line, columns_.quaternion[0]->name, "a rotation", "a quaternion of length 0");
     good = false;
   }
   if (!good) return;
@@ -250,9 +149,9 @@ void Reader::readRows() {
     bool good = table_.rowFits();
     if (good) {
       readTime(row, good);
-      if (quaternion_[0]) readQuaternion(row, good);
-      for (std::size_t i = 0; i < kAngles && !quaternion_[0]; ++i)
-        if (columns_[i]) row.cell[i] = readCell(*columns_[i], kLargestDeg, row.angle[i], good);
+      if (columns_.quaternion[0]) readQuaternion(row, good);
+      for (std::size_t i = 0; i < kAngles && !columns_.quaternion[0]; ++i)
+        if (columns_.angles[i]) row.cell[i] = readCell(*columns_.angles[i], kLargestDeg, row.angle[i], good);
     } else {
       nameBadCell(row.line, "", std::to_string(table_.header().size()) + " cells, as the header",
                   std::to_string(table_.cells().size()));
@@ -265,21 +164,22 @@ void Reader::readRows() {
 }
 
 bool Reader::toDegrees() {
-  if (quaternion_[0]) return true;
+  if (columns_.quaternion[0]) return true;
   UnnamedAngles unnamed;
   for (std::size_t i = 0; i < kAngles; ++i) {
-    if (!columns_[i] || columns_[i]->unit != Unit::none) continue;
+    if (!columns_.angles[i] || columns_.angles[i]->unit != Unit::none) continue;
     // Headers mislead: the heading may be the pitch.
     if (i != kRoll) unnamed.maybePitch.push_back(unnamed.names.size());
-    unnamed.names.push_back(columns_[i]->name);
+    unnamed.names.push_back(columns_.angles[i]->name);
+    unnamed.quantities.emplace_back(HeadColumns::kAngleNames[i]);
     auto& column = unnamed.columns.emplace_back();
     for (const Row& row : rows_) column.push_back(row.angle[i]);
   }
   const Unit found = unnamed.names.empty() ? Unit::degrees : angleUnit(unnamed, where_, findings_);
   if (found == Unit::none) return false;
   for (std::size_t i = 0; i < kAngles; ++i) {
-    if (!columns_[i]) continue;
-    const Unit unit = columns_[i]->unit == Unit::none ? found : columns_[i]->unit;
+    if (!columns_.angles[i]) continue;
+    const Unit unit = columns_.angles[i]->unit == Unit::none ? found : columns_.angles[i]->unit;
     if (unit != Unit::radians) continue;
     for (Row& row : rows_) row.angle[i] = Radians{row.angle[i]}.in<Degrees>();
   }
@@ -297,7 +197,7 @@ bool Reader::toSeconds() {
     moved.push_back(std::hypot(b[kHeading] - a[kHeading], b[kPitch] - a[kPitch]));
   }
   const TimeReading reading =
-      timeReading({time_->name, time_->unit, clock_}, times, moved, kHeadMotion, where_);
+      timeReading({columns_.time->name, columns_.time->unit, clock_}, times, moved, kHeadMotion, where_);
   findings_.insert(findings_.end(), reading.findings.begin(), reading.findings.end());
   const double begin = reading.fromFirst && !times.empty() ? times.front() : 0;
   for (Row& row : rows_) row.time = (row.time - begin) * reading.scale;
@@ -340,21 +240,22 @@ std::size_t Reader::rowsBeyondQuarter(std::size_t angle) const {
 }
 
 void Reader::exchangeMisnamedColumns() {
-  const bool unnamed =
-      !quaternion_[0] && columns_[kHeading]->unit == Unit::none && columns_[kPitch]->unit == Unit::none;
+  const bool unnamed = !columns_.quaternion[0] && columns_.angles[kHeading]->unit == Unit::none &&
+                       columns_.angles[kPitch]->unit == Unit::none;
   if (!unnamed || rowsBeyondQuarter(kPitch) <= rowsBeyondQuarter(kHeading)) return;
   for (Row& row : rows_) std::swap(row.angle[kHeading], row.angle[kPitch]);
   pitchColumn_ = kHeading;
   findings_.push_back(
-      {Severity::warning, where_, "", "a pitch of -90 to 90 deg in column " + columns_[kPitch]->name,
-       "a column that winds further than " + columns_[kHeading]->name + ": the two are exchanged"});
+      {Severity::warning, where_, "", "a pitch of -90 to 90 deg in column " + columns_.angles[kPitch]->name,
+       "a column that winds further than " + columns_.angles[kHeading]->name + ": the two are exchanged"});
 }
 
 bool Reader::dropRowsBeyondQuarter() {
   const std::size_t before = rows_.size();
   std::erase_if(rows_, [this](const Row& row) {
     if (std::abs(row.angle[kPitch]) <= kQuarterDeg) return false;
-    nameBadCell(row.line, quaternion_[0] ? quaternion_[0]->name : columns_[pitchColumn_]->name,
+    nameBadCell(row.line,
+                columns_.quaternion[0] ? columns_.quaternion[0]->name : columns_.angles[pitchColumn_]->name,
                 "a pitch of -90 to 90 deg", cellText(row.cell[pitchColumn_]));
     ++bad_;
     return true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "column_advice.h"
 #include "trimtab/units/number.h"
 
 namespace trimtab {
@@ -55,16 +56,24 @@ Unit angleUnit(const UnnamedAngles& angles, const std::string& where, Findings& 
     note("angles name no unit, and as radians the pitch would leave a quarter turn: read as degrees");
     return Unit::degrees;
   }
-  const std::string& name = angles.names.front();
   const bool within01 = std::all_of(angles.columns.begin(), angles.columns.end(), [](const auto& column) {
     return std::all_of(column.begin(), column.end(), [](double a) { return a >= 0 && a <= 1; });
   });
+  const auto map = [&angles](const char* unit, bool shares) {
+    std::string text;
+    for (std::size_t i = 0; i < angles.names.size(); ++i) {
+      text += (i > 0 ? "," : "") + angles.quantities[i] + unit + '=' + columnText(angles.names[i]);
+      if (shares) text += angles.quantities[i].ends_with("pitch") ? "*180-90" : "*360-180";
+    }
+    return text;
+  };
+  const std::string& name = angles.names.front();
   findings.push_back({Severity::error, where, name,
                       "a unit in the names of angles, as " + name + "_deg or " + name + "_rad",
                       "angles of at most " + numberText(most, 4) + ", which may be degrees or radians" +
-                          (within01 ? " or, from 0 to 1, shares of a range" : "") +
-                          ": name the unit, or map the column, as " + name + "_deg=" + name + " or " + name +
-                          "_deg=" + name + (within01 ? "*360-180" : "*57.29578")});
+                          (within01 ? " or, from 0 to 1, shares of a range" : "") + ": " +
+                          mapAdvice({map("_deg", false), map("_rad", false),
+                                     within01 ? map("_deg", true) : std::string()})});
   return Unit::none;
 }
 

@@ -10,7 +10,8 @@ namespace trimtab {
 
 /// Columns of angles that name no unit, row by row.
 struct UnnamedAngles {
-  std::vector<std::string> names;
+  std::vector<std::string> names;       ///< of the columns
+  std::vector<std::string> quantities;  ///< as a map has them, without a unit: "roll", "head_pitch"
   std::vector<std::vector<double>> columns;
   /// Columns of which one is a pitch, which lies within a quarter turn.
   std::vector<std::size_t> maybePitch;

@@ -122,7 +122,7 @@ std::optional<LogColumn> LogColumns::find(std::span<const std::string_view> base
   return std::nullopt;
 }
 
-std::optional<std::size_t> LogColumns::placeOf(std::string_view name) const {
+std::optional<std::size_t> LogColumns::placeOf(std::string_view name, bool toTheLetter) const {
   std::size_t number = 0;
   if (name.starts_with('#')) {
     const auto [end, error] = std::from_chars(name.data() + 1, name.data() + name.size(), number);
@@ -135,7 +135,8 @@ std::optional<std::size_t> LogColumns::placeOf(std::string_view name) const {
       return std::nullopt;
     return static_cast<std::size_t>(at - header_.begin());
   };
-  if (const auto exact = only([&](const std::string& cell) { return trimmed(cell) == trimmed(name); }))
+  if (const auto exact = only([&](const std::string& cell) { return trimmed(cell) == trimmed(name); });
+      exact || toTheLetter)
     return exact;
   return only([wanted = normalised(name)](const std::string& cell) {
     return !wanted.empty() && normalised(cell) == wanted;
@@ -144,7 +145,7 @@ std::optional<std::size_t> LogColumns::placeOf(std::string_view name) const {
 
 std::optional<LogColumn> LogColumns::find(const ColumnSource& source) const {
   const auto column = [&](std::size_t place) { return LogColumn{place, 0, header_[place]}; };
-  if (const auto place = placeOf(source.written)) return column(*place);
+  if (const auto place = placeOf(source.written, true)) return column(*place);
   std::string_view name = source.column;
   auto place = placeOf(name);
   std::size_t part = 0;

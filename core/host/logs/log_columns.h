@@ -52,7 +52,7 @@ class LogColumns {
   std::optional<LogColumn> find(const ColumnSource& source) const;
 
  private:
-  std::optional<std::size_t> placeOf(std::string_view name) const;
+  std::optional<std::size_t> placeOf(std::string_view name, bool toTheLetter = false) const;
 
   const std::vector<std::string>& header_;
   std::vector<ColumnName> names_;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "column_advice.h"
 #include "delimited_text.h"
 #include "trimtab/units/number.h"
 #include "trimtab/units/text.h"
@@ -78,6 +79,20 @@ const char* nameOf(Unit unit) {
       return "nanoseconds";
     default:
       return "seconds";
+  }
+}
+
+/// Returns what a map writes before a column of times in this unit.
+std::string keyOf(Unit unit) {
+  switch (unit) {
+    case Unit::milliseconds:
+      return "time_ms=";
+    case Unit::microseconds:
+      return "time_us=";
+    case Unit::nanoseconds:
+      return "time_ns=";
+    default:
+      return "time_s=";
   }
 }
 
@@ -202,15 +217,16 @@ TimeReading timeReading(const TimeColumn& column, std::span<const double> times,
     if (fit.size() > 1 && pace.steps >= kFewSteps) {
       say(Severity::error, "a unit of time in the column's name, as time_s or time_ms",
           "steps of " + numberText(pace.step, 3) + ", which may be " + nameOf(fit[0]) + " or " +
-              nameOf(fit[1]) + ": name the unit, or map the column, as time_s=" + column.name +
-              " or time_s=" + column.name + "*0.001");
+              nameOf(fit[1]) + ": " +
+              mapAdvice({keyOf(fit[0]) + columnText(column.name), keyOf(fit[1]) + columnText(column.name)}));
       return reading;
     }
     unit = fit.size() == 1 ? fit[0] : Unit::seconds;
     reading.fromFirst = isDate(times, unit);
     if (fit.empty() && pace.steps >= kFewSteps)
       say(Severity::warning, "steps of time that seconds, milliseconds or less fit",
-          numberText(pace.step, 3) + ": name the unit, or map the column, as time_s=" + column.name + "*60");
+          numberText(pace.step, 3) +
+              ": name the unit, or map the column, as time_s=" + columnText(column.name) + "*60");
     say(Severity::note, "",
         std::string("times name no unit: read as ") + nameOf(unit) +
             (reading.fromFirst ? " since 1970" : ""));

@@ -241,19 +241,19 @@ TEST(OrderZero, isNeverSlow) {
 
 /// What the refusal of each of the small files that real users met begins with; the others are read.
 const std::map<std::string, std::string> kRefusedFiles{
-    {"cut520.fll", "25: expected key: value, found r"},
+    {"cut520.fll", "25: expected key: value, as in a file that is whole; write it again, found r"},
     {"default0.fll", "14: default: expected nan: a lever that no rule sets is neutral"},
-    {"disabled.fll", "3: enabled: expected true, found false"},
+    {"disabled.fll", "3: enabled: expected true; remove what is switched off"},
     {"empty_outputs.fis", "38: Rules: expected a term of an output, or no such rule"},
     {"height.fll", "7: terms.altitude.high: expected two numbers"},
     {"nummf.fis", "17: NumMFs: expected 3 terms, as many as follow, found 4"},
     {"numrules.fis", "7: NumRules: expected 3 rules, as many as follow, found 5"},
     {"outrange.fis", "33: term cheap: expected occlusion from 0 to 2, or --map"},
-    {"truncated.fll", " rule: expected at least one rule, found none"},
+    {"truncated.fll", " rule: expected at least one rule; if the file had some, it is cut"},
     {"unordered.fis",
      "20: terms.altitude.excellent: expected a left foot, two tops and a right foot that rise"},
     {"weight15.fis", "38: rules.1: expected a weight from 0 to 1, found 1.5"},
-    {"wsum.fll", "13: defuzzifier: expected WeightedAverage TakagiSugeno, found WeightedSum"},
+    {"wsum.fll", "13: defuzzifier: expected WeightedAverage TakagiSugeno; change it in the tool"},
     {"wtsum.fis", "12: DefuzzMethod: expected 'wtaver', the weighted average, found wtsum"}};
 
 TEST(OrderZero, leavesNoSmallFileWithoutHelp) {

@@ -275,6 +275,53 @@ TEST(FlightFiles, deriveAnAttitudeFromTheTrack) {
   EXPECT_NEAR(attitude.roll.value(), 28, 3);
 }
 
+/// Returns the maps that a refusal offers.
+std::vector<std::string> offeredBy(const Findings& findings) {
+  std::vector<std::string> maps;
+  const std::string advice = "map the column, as ";
+  for (const Finding& finding : findings) {
+    const std::size_t at = finding.found.find(advice);
+    if (at == std::string::npos) continue;
+    std::string rest = finding.found.substr(at + advice.size());
+    for (std::size_t end; (end = rest.find(" or ")) != std::string::npos; rest = rest.substr(end + 4))
+      maps.push_back(rest.substr(0, end));
+    maps.push_back(rest);
+  }
+  return maps;
+}
+
+TEST(FlightFiles, areReadByEachMapThatTheirRefusalOffers) {
+  const std::string places = "0,52.3,4.75,1200,";
+  std::string steps = "t,latitude_deg,longitude_deg,altitude_ft\n";
+  for (int row = 0; row < 9; ++row) steps += std::to_string(20 * row) + ",52.3,4.75,1200\n";
+  for (const std::string& text :
+       {"time_s,latitude_deg,longitude_deg,altitude_ft,Theta,Bank,Psi\n" + places + "0.1,0.2,1.4\n",
+        std::string("time_s,latitude_deg,longitude_deg,\"Altitude, MSL\"\n0,52.3,4.75,1200\n"),
+        steps}) {
+    const auto refused = parseFlightCsv(text, "f.csv");
+    ASSERT_FALSE(refused) << text;
+    const auto maps = offeredBy(refused.findings());
+    EXPECT_EQ(maps.size(), 2U) << toString(refused.findings());
+    for (const std::string& each : maps) {
+      const auto map = parseColumnMap(each);
+      ASSERT_TRUE(map) << each;
+      const auto flight = parseFlightCsv(text, "f.csv", 0.1, *map);
+      EXPECT_TRUE(flight) << each << ": " << toString(flight.findings());
+    }
+  }
+}
+
+TEST(FlightFiles, takeTheAltitudeOfTheMapBeforeOneThatIsFound) {
+  const std::string text = "time_s,latitude_deg,longitude_deg,height_m,Alt,alt_3\n0,52.3,4.75,900,1000,7\n";
+  const auto height = [&text](const char* map) {
+    const auto flight = parseFlightCsv(text, "f.csv", 0.1, *parseColumnMap(map));
+    EXPECT_TRUE(flight) << toString(flight.findings());
+    return flight ? flight->states[0].position.height.in<Feet>() : 0;
+  };
+  EXPECT_NEAR(height("altitude_ft=Alt"), 1000, 1e-6);
+  EXPECT_NEAR(height("altitude_ft=Alt*3"), 3000, 1e-6) << "alt_3 is another column";
+}
+
 TEST(ColumnMap, namesEveryPartThatIsNoAssignment) {
   const auto map =
       parseColumnMap("latitude_deg=Lat, altitude_ft = Alt*3.28084+10 ,\"x\",a=,pitch_deg=P,pitch_deg=Q");

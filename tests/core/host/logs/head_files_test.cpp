@@ -152,8 +152,10 @@ TEST(HeadFiles, areRefusedIfTwoReadingsFit) {
   const auto rows = [](const Pose& p) { return std::array<double, 4>{p.t * 50, p.yaw, p.pitch, p.roll}; };
   for (const HeadCase& c : {
            HeadCase{"a still pilot", logOf(header.c_str(), "%.3f,%.2f,%.2f,%.2f", asIs, motion(4, 1)),
-                    "may be degrees or radians: name the unit, or map the column, as yaw_deg=yaw"},
-           {"shares of a turn", logOf(header.c_str(), "%.3f,%.4f,%.4f,%.4f", shares), "yaw_deg=yaw*360-180"},
+                    "may be degrees or radians: name the unit, or map the column, as "
+                    "head_heading_deg=yaw,head_pitch_deg=pitch"},
+           {"shares of a turn", logOf(header.c_str(), "%.3f,%.4f,%.4f,%.4f", shares),
+            "head_heading_deg=yaw*360-180,head_pitch_deg=pitch*180-90"},
            {"counted rows", logOf("t,yaw_deg,pitch_deg,roll_deg", "%.0f,%.2f,%.2f,%.2f", rows),
             "seconds or milliseconds: name the unit"},
            {"quaternions", "time,qw,qx,qy,qz\n0,1,0,0,0\n", "a head log of quaternions"},
