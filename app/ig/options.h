@@ -19,7 +19,8 @@ struct Options {
   std::string bindAddress = link::kOwnMachine, group;  ///< of the port that is listened on
   std::string sender = link::kAnyone;                  ///< see link::ReceiverOptions::sender
   std::string reply;                                   ///< HOST:PORT, empty for none
-  HostProtocol protocol = HostProtocol::automatic;
+  std::optional<HostProtocol> protocol;                ///< these three are the preset's, if unset
+  std::optional<std::uint16_t> entity, view;
   std::filesystem::path flight;
   std::string columns, headColumns;  ///< maps of the columns of flight and head log
   std::string head;                  ///< a head log or a sweep; empty: the head in the states

@@ -14,8 +14,13 @@ constexpr std::size_t kMostSenders = 8;
 
 }  // namespace
 
+HostChoice::HostChoice(const HostParameters& parameters)
+    : protocol(parameters.protocol), entity(static_cast<std::uint16_t>(parameters.entity.value())) {
+  if (parameters.view.value() >= 0) view = static_cast<std::uint16_t>(parameters.view.value());
+}
+
 struct HostDecoder::Link {
-  HostProtocol wanted = HostProtocol::automatic;
+  HostChoice choice;
   std::vector<std::unique_ptr<OneSender>> senders;
   OneSender* followed = nullptr;  ///< whose health is shown
   OneSender* newest = nullptr;    ///< the last one that was understood
@@ -37,7 +42,7 @@ OneSender& HostDecoder::Link::senderOf(const Datagram& datagram) {
     return *followed;
   }
   if (senders.size() == kMostSenders) forgetOne();
-  senders.push_back(std::make_unique<OneSender>(datagram.from, wanted));
+  senders.push_back(std::make_unique<OneSender>(datagram.from, choice));
   return *senders.back();
 }
 
@@ -66,8 +71,8 @@ void HostDecoder::Link::follow(OneSender& sender) {
     sender.noteAlongside();
 }
 
-HostDecoder::HostDecoder(HostProtocol protocol) : link_(std::make_unique<Link>()) {
-  link_->wanted = protocol;
+HostDecoder::HostDecoder(const HostChoice& choice) : link_(std::make_unique<Link>()) {
+  link_->choice = choice;
 }
 HostDecoder::~HostDecoder() = default;
 HostDecoder::HostDecoder(HostDecoder&&) noexcept = default;
@@ -105,6 +110,9 @@ double HostDecoder::rateAt(double now) const {
 std::shared_ptr<const HostSymbols> HostDecoder::symbols() const {
   return link_->newest ? link_->newest->symbols() : nullptr;
 }
+void HostDecoder::takeQueries(std::vector<TerrainQuery>& queries) {
+  if (link_->newest) link_->newest->takeQueries(queries);
+}
 std::optional<std::uint32_t> HostDecoder::lastHostFrame() const {
   return link_->newest ? link_->newest->lastFrame() : std::nullopt;
 }
@@ -113,9 +121,9 @@ ByteOrder HostDecoder::hostOrder() const {
 }
 
 void HostDecoder::reset() {
-  const HostProtocol wanted = link_->wanted;
+  const HostChoice choice = link_->choice;
   link_ = std::make_unique<Link>();
-  link_->wanted = wanted;
+  link_->choice = choice;
 }
 
 }  // namespace trimtab

@@ -68,8 +68,8 @@ std::optional<double> HostClock::advance(std::uint32_t ticks) {
 }
 
 WireProtocol OneSender::detect(std::span<const std::byte> bytes) const {
-  if (wanted_ == HostProtocol::native_fdm) return WireProtocol::native_fdm;
-  if (wanted_ == HostProtocol::cigi3) return WireProtocol::cigi3;
+  if (choice_.protocol == HostProtocol::native_fdm) return WireProtocol::native_fdm;
+  if (choice_.protocol == HostProtocol::cigi3) return WireProtocol::cigi3;
   if (native_fdm::matches(bytes)) return WireProtocol::native_fdm;
   return isIgControl(bytes) ? WireProtocol::cigi3 : WireProtocol::none;
 }
@@ -120,9 +120,9 @@ void OneSender::refuse(const Datagram& datagram, const PacketFault& fault) {
 
 std::optional<PacketFault> OneSender::otherThanWanted(std::span<const std::byte> bytes) const {
   constexpr const char* kRemedy = "ask for the protocol that the host speaks, or for auto";
-  if (wanted_ == HostProtocol::cigi3 && native_fdm::matches(bytes))
+  if (choice_.protocol == HostProtocol::cigi3 && native_fdm::matches(bytes))
     return PacketFault{0, "protocol", "CIGI 3, as was asked for", "native-fdm 24", kRemedy};
-  if (wanted_ == HostProtocol::native_fdm && isIgControl(bytes))
+  if (choice_.protocol == HostProtocol::native_fdm && isIgControl(bytes))
     return PacketFault{0, "protocol", "native-fdm 24, as was asked for", "CIGI 3", kRemedy};
   return std::nullopt;
 }
@@ -183,9 +183,10 @@ std::optional<AircraftState> OneSender::acceptNativeFdm(const Datagram& datagram
 }
 
 std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram) {
-  // Into a copy: a message that turns out bad at its last packet has changed nothing.
+  // Into a copy: a message that comes late has changed nothing.
+  const cigi3::Follow follow{choice_.entity, choice_.view};
   cigi3::Session candidate = session_;
-  const cigi3::Message message = cigi3::parse(datagram.bytes, candidate);
+  cigi3::Message message = cigi3::parse(datagram.bytes, candidate, follow);
   if (message.fault) {
     refuse(datagram, *message.fault);
     return std::nullopt;
@@ -196,31 +197,29 @@ std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram) {
   }
   const double gap = gapTo(datagram);
   const bool silence = gap > kSilenceS;
-  const auto verdict = order_.accept(message.frame, silence);
-  statistics_.lost = order_.lost();
+  using Verdict = FrameOrder::Verdict;
+  const Verdict verdict = order_.accept(message.frame, silence);
+  statistics_.lost = verdict == Verdict::uncounted ? std::nullopt : std::optional(order_.lost());
   statistics_.implausible = order_.implausible();
-  if (verdict != FrameOrder::Verdict::next && verdict != FrameOrder::Verdict::restarted) {
-    statistics_.repeated += verdict == FrameOrder::Verdict::repeated;
-    statistics_.reordered += verdict == FrameOrder::Verdict::reordered;
+  if (verdict == Verdict::repeated || verdict == Verdict::reordered || verdict == Verdict::implausible) {
+    statistics_.repeated += verdict == Verdict::repeated;
+    statistics_.reordered += verdict == Verdict::reordered;
     heard(datagram, WireProtocol::cigi3, silence);
     return unused("frame number of IG Control",
                   "one that rises, above " + std::to_string(order_.last().value_or(0)),
                   std::to_string(message.frame));
   }
-  const bool restarted = verdict == FrameOrder::Verdict::restarted;
+  statistics_.uncounted += verdict == Verdict::uncounted;
+  const bool restarted = verdict == Verdict::restarted;
   if (restarted) {
     ++statistics_.restarts;
     clock_.restart();
     candidate = {};
-    static_cast<void>(cigi3::parse(datagram.bytes, candidate));
+    static_cast<void>(cigi3::parse(datagram.bytes, candidate, follow));
   }
   session_ = candidate;
-  statistics_.regionalWeather += static_cast<std::uint64_t>(message.regionalWeather);
-  statistics_.otherLayers += static_cast<std::uint64_t>(message.otherLayers);
-  statistics_.symbolPackets += static_cast<std::uint64_t>(message.symbolPackets);
-  statistics_.refusedSymbols += static_cast<std::uint64_t>(message.refusedSymbols);
-  if (message.symbolFault && statistics_.firstSymbolReason.empty())
-    statistics_.firstSymbolReason = toString(*message.symbolFault);
+  notePackets(message);
+  queries_ = std::move(message.queries);
   hostOrder_ = message.order;
 
   const auto hostTime = message.ticks ? clock_.advance(*message.ticks) : std::nullopt;
@@ -233,12 +232,17 @@ std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram) {
       meter_.deviated(gap - even);
   }
   heard(datagram, WireProtocol::cigi3, silence);
+  if (message.ownship) {
+    statistics_.newestUnused = toFinding(*message.ownship, statistics_.from);
+    return std::nullopt;
+  }
   if (!session_.position) return withoutOwnship(message);
   AircraftState state;
   state.time = time;
-  state.packet = message.frame;
+  state.packet = message.frame + statistics_.uncounted;
   state.position = *session_.position;
   state.attitude = session_.attitude;
+  state.clamp = session_.clamp;
   state.head = session_.head;
   state.visibility = session_.visibility;
   state.weather = session_.weather();
@@ -247,15 +251,54 @@ std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram) {
   return finish(state, gap, silence);
 }
 
+/// Adds up what is told of the packets of a message that is used.
+void OneSender::notePackets(const cigi3::Message& message) {
+  statistics_.regionalWeather += static_cast<std::uint64_t>(message.regionalWeather);
+  statistics_.otherLayers += static_cast<std::uint64_t>(message.otherLayers);
+  statistics_.symbolPackets += static_cast<std::uint64_t>(message.symbolPackets);
+  statistics_.refusedPackets += static_cast<std::uint64_t>(message.refusedPackets);
+  if (message.refused) {
+    if (statistics_.firstRefusedReason.empty()) statistics_.firstRefusedReason = toString(*message.refused);
+    statistics_.newestRefused = toFinding(*message.refused, statistics_.from);
+  }
+  const auto addNew = [](std::vector<std::uint16_t>& list, const std::vector<std::uint16_t>& seen) {
+    for (const std::uint16_t number : seen)
+      if (list.size() < cigi3::kMostNamed && std::find(list.begin(), list.end(), number) == list.end())
+        list.push_back(number);
+  };
+  addNew(statistics_.otherEntities, message.otherEntities);
+  addNew(statistics_.views, message.views);
+  statistics_.view = choice_.view        ? choice_.view
+                     : session_.headView ? session_.headView
+                                         : session_.definedView;
+  for (const IgnoredPackets& each : message.ignored) {
+    const auto known = std::find_if(statistics_.ignored.begin(), statistics_.ignored.end(),
+                                    [&each](const IgnoredPackets& i) { return i.id == each.id; });
+    if (known == statistics_.ignored.end())
+      statistics_.ignored.push_back(each);
+    else
+      known->count += each.count;
+  }
+}
+
+void OneSender::takeQueries(std::vector<TerrainQuery>& queries) {
+  queries.insert(queries.end(), queries_.begin(), queries_.end());
+  queries_.clear();
+}
+
 std::optional<AircraftState> OneSender::withoutOwnship(const cigi3::Message& message) {
-  if (!message.otherEntity)
-    return unused("Entity Control", "entity 0, the ownship", "none so far, or it was destroyed");
+  const std::string own = std::to_string(choice_.entity);
+  if (!message.otherEntityAt)
+    return unused("Entity Control", "entity " + own + ", the own aircraft", "none so far, or it was destroyed");
   ++statistics_.notForUs;
-  PacketFault fault = *message.otherEntity;
-  if (message.otherEntities > 1)
-    fault.found += " and " + std::to_string(message.otherEntities - 1) + " others";
-  fault.found += " only";
-  statistics_.newestNotForUs = toFinding(fault, statistics_.from);
+  std::string seen;
+  for (const std::uint16_t entity : statistics_.otherEntities)
+    seen += (seen.empty() ? "" : ", ") + std::to_string(entity);
+  statistics_.newestNotForUs =
+      toFinding(PacketFault{*message.otherEntityAt, "entity", own + ", the own aircraft",
+                            "no entity " + own + "; seen: " + seen,
+                            "--entity, or host.entity of the preset, says which one is the own aircraft"},
+                statistics_.from);
   return std::nullopt;
 }
 

@@ -28,13 +28,17 @@ class HostClock {
 /// Decodes what one sender sends: what its datagrams add up to, and the health of its link.
 class OneSender {
  public:
-  OneSender(std::string from, HostProtocol wanted) : wanted_(wanted) { statistics_.from = std::move(from); }
+  OneSender(std::string from, const HostChoice& choice) : choice_(choice) {
+    statistics_.from = std::move(from);
+  }
 
   /// Does what HostDecoder::accept does, for the datagrams of this sender.
   std::optional<AircraftState> accept(const Datagram& datagram);
   const HostStatistics& statistics() const { return statistics_; }
   const RateMeter& meter() const { return meter_; }
   const std::shared_ptr<const HostSymbols>& symbols() const { return session_.symbols; }
+  /// Moves the requests of the last datagram to the end of `queries`.
+  void takeQueries(std::vector<TerrainQuery>& queries);
   std::optional<std::uint32_t> lastFrame() const { return order_.last(); }
   ByteOrder byteOrder() const { return hostOrder_; }
 
@@ -67,13 +71,14 @@ class OneSender {
   std::optional<AircraftState> acceptCigi(const Datagram& datagram);
   std::optional<AircraftState> finish(const AircraftState& state, double gapS, bool silence);
   std::optional<AircraftState> withoutOwnship(const cigi3::Message& message);
+  void notePackets(const cigi3::Message& message);
   /// Says why a host's datagram leads to no state; returns none.
   std::optional<AircraftState> unused(std::string what, std::string expected, std::string found);
   double gapTo(const Datagram& datagram) const {
     return statistics_.lastArrival > 0 ? datagram.arrival - statistics_.lastArrival : 0;
   }
 
-  HostProtocol wanted_;
+  HostChoice choice_;
   HostStatistics statistics_;
   RateMeter meter_;
   std::optional<AircraftState> lastState_;
@@ -83,6 +88,7 @@ class OneSender {
   double lastHeard_ = 0;  ///< arrival of the last datagram, good or bad
 
   cigi3::Session session_;
+  std::vector<TerrainQuery> queries_;  ///< of the last datagram
   FrameOrder order_;
   HostClock clock_;
   ByteOrder hostOrder_ = ByteOrder::big;

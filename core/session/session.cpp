@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/session/on_ground.h"
 #include "trimtab/decision/decide.h"
 #include "trimtab/host/motion.h"
 #include "trimtab/motion/line_of_sight.h"
@@ -71,7 +72,7 @@ void Session::unlink() {
 void Session::receive(std::span<const ReceivedState> states) {
   for (const ReceivedState& received : states) {
     latency_.decoded(received.kernelTime, received.decodedTime);
-    AircraftState state = received.state;
+    AircraftState state = onGround(received.state, ground_.get());
     head_.apply(state, received.kernelTime);
     follow(state, received.kernelTime);
     hostSymbols_ = received.symbols;
@@ -84,7 +85,7 @@ void Session::receive(std::span<const ReceivedState> states) {
 
 void Session::fly(const AircraftState& state, double now) {
   unlink();
-  AircraftState flown = state;
+  AircraftState flown = onGround(state, ground_.get());
   head_.apply(flown, now);
   decideNext(inputFor(flown), kNan);
 }
@@ -132,14 +133,26 @@ void Session::restart() {
   *this = std::move(fresh);
 }
 
-/// Returns the height that the host sent, else one above the terrain, but only if the decision wants it: it
-/// costs a look-up.
+/// Returns the height above the terrain that is drawn, but only if the decision wants it: it costs a look-up.
+/// Where the terrain knows nothing, what the host sent is all there is.
 std::optional<Metres> Session::groundBelow(const AircraftState& state) const {
-  if (state.aboveGround) return state.aboveGround;
   const CompiledPolicy* const policy = parameters_.policy();
   const bool asked = parameters_->altitude.reference == AltitudeReference::above_ground ||
                      (policy != nullptr && policy->asks(Signal::above_ground));
-  return asked ? heightOverTerrain(state) : std::nullopt;
+  const std::optional<Metres> height = asked ? heightOverTerrain(state) : std::nullopt;
+  return height ? height : state.aboveGround;
+}
+
+/// Notes where the host's height above ground is not the terrain's.
+void Session::compareGround(const AircraftState& state, std::optional<Metres> overTerrain) {
+  if (!state.aboveGround || !overTerrain) return;
+  const Metres host = *state.aboveGround;
+  // Hosts send it as a float.
+  const double rounding = 1e-6 * std::abs(state.position.height.value());
+  const bool isAltitude = std::abs((host - state.position.height).value()) <= rounding;
+  const Metres bound = isAltitude ? GroundDoubt::kNoSea : GroundDoubt::kTooFar;
+  if (std::abs((host - *overTerrain).value()) < bound.value()) return;
+  doubt_ = GroundDoubt{doubt_ ? doubt_->states + 1 : 1, host, *overTerrain, isAltitude};
 }
 
 std::optional<Metres> Session::heightOverTerrain(const AircraftState& state) const {
@@ -170,9 +183,13 @@ void Session::trackSignals(FrameInput& input, const WeatherDecision& weather) {
   if (!replaysSignals(input)) {
     if (parameters_.policy() == nullptr && !watched) return;
     // Whoever watches sees the height before a rule asks for it.
-    signals_.tracker.push(input.state,
-                          watched && !input.aboveGround ? heightOverTerrain(input.state) : input.aboveGround,
-                          velocityOf(input.state), weather);
+    std::optional<Metres> height = input.aboveGround;
+    if (watched)
+      if (const auto overTerrain = heightOverTerrain(input.state)) {
+        compareGround(input.state, overTerrain);
+        height = overTerrain;
+      }
+    signals_.tracker.push(input.state, height, velocityOf(input.state), weather);
     if (parameters_.policy() != nullptr) input.signalValues = signals_.tracker.values();
   }
   if (watched) watched = replaysSignals(input) ? input.signalValues : signals_.tracker.values();
@@ -200,6 +217,7 @@ void Session::decideNext(FrameInput input, double kernelTime) {
   ++packets_;
   if (looking) signals_.tracker.restart();
   decided_ = std::move(input);
+  if (!signals_.watched) compareGround(decided_.state, decided_.aboveGround);
   decideWith(memory_);
   if (looking) groundVelocity_.restart();
   groundVelocity_.push(decided_.state);

@@ -19,6 +19,7 @@
 #include "trimtab/measure/trace.h"
 #include "trimtab/preset/table.h"
 #include "trimtab/session/air_drift.h"
+#include "trimtab/session/ground_doubt.h"
 #include "trimtab/session/head_input.h"
 #include "trimtab/session/image_rate.h"
 #include "trimtab/session/latency.h"
@@ -48,8 +49,8 @@ class Session {
   /// new targets at once.
   void setParameters(const ValidatedParameters& parameters);
   const ValidatedParameters& parameters() const { return parameters_; }
-  /// Sets what is asked for the height of the ground if the host does not send the height above it. May be
-  /// null.
+  /// Sets what is asked for the height of the ground: for the height above it, and for aircraft that stand on
+  /// it. May be null.
   void setGround(std::shared_ptr<const GroundHeights> ground);
   /// Sets what the arbiter of the budget counts the triangles of coming views in; see FrameHold::setIndex.
   void setLoadIndex(std::shared_ptr<const LoadIndex> index) { budget_.hold.setIndex(std::move(index)); }
@@ -93,6 +94,9 @@ class Session {
   double packetAge(double now) const;
   std::uint64_t packets() const { return packets_; }
   std::uint64_t jumps() const { return jumps_; }
+  /// Returns where the host's height above ground contradicts the terrain's; nullopt if it never did. The two
+  /// are compared only where something asks for the height.
+  const std::optional<GroundDoubt>& groundDoubt() const { return doubt_; }
   const Latency& latency() const { return latency_.latency(); }
 
   /// Returns what holds the budget: its cost model, and how its predictions come out.
@@ -163,6 +167,7 @@ class Session {
   void holdBudget(FrameRequest& request);
   std::optional<Metres> heightOverTerrain(const AircraftState& state) const;
   std::optional<Metres> groundBelow(const AircraftState& state) const;
+  void compareGround(const AircraftState& state, std::optional<Metres> overTerrain);
   std::optional<Metres> highestGround() const;
   void follow(const AircraftState& state, double arrival);
   void unlink();
@@ -172,6 +177,7 @@ class Session {
 
   ValidatedParameters parameters_;
   std::shared_ptr<const GroundHeights> ground_;
+  std::optional<GroundDoubt> doubt_;
 
   DecisionMemory memory_, lookMemory_;
   MotionMemory motionBefore_;          ///< before the last decision
