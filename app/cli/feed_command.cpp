@@ -83,15 +83,16 @@ int show(const FeedOptions& options) {
     if (last) {
       const AircraftState& s = last->state;
       std::snprintf(more, sizeof more,
-                    " age %.0f ms latency %.3f ms at %.6f %.6f %.1f ft heading %.1f pitch %.1f roll %.1f",
+                    " age %.0f ms latency %.3f ms at %.6f %.6f %.1f ft%s heading %.1f pitch %.1f roll %.1f",
                     (link::now() - last->kernelTime) * 1e3, (last->decodedTime - last->kernelTime) * 1e3,
                     s.position.latitude.value(), s.position.longitude.value(), s.position.height.in<Feet>(),
-                    s.attitude.heading.value(), s.attitude.pitch.value(), s.attitude.roll.value());
+                    s.clamp == GroundClamp::none ? "" : " above the ground", s.attitude.heading.value(),
+                    s.attitude.pitch.value(), s.attitude.roll.value());
       text += more;
     }
     std::puts(text.c_str());
     std::fflush(stdout);
-    if (!badShown && !(statistics.firstBadReason.empty() && statistics.firstSymbolReason.empty())) {
+    if (!badShown && !(statistics.firstBadReason.empty() && statistics.firstRefusedReason.empty())) {
       printFirstBad(statistics);
       badShown = true;
     }
@@ -122,19 +123,25 @@ void addListening(CLI::App* command, FeedOptions& options) {
       ->required()
       ->check(CLI::Range(1, 65535));
   command
-      ->add_option(
-          "--bind", options.bind,
-          "Own IPv4 address to receive at; without it only this machine can send; 0.0.0.0: every one")
+      ->add_option("--bind", options.bind,
+                   "Own address to receive at; without it only this machine can send; 0.0.0.0: every one; "
+                   "::: every one, also of IPv6")
       ->capture_default_str();
+  command->add_option("--group", options.group, "Multicast group to join on that interface");
   command
       ->add_option(
           "--from", options.from,
-          "Who may send: any, first (the first one to send a good packet, from then on), or an address")
+          "Who may send: any, first (the first one to send a good packet, from then on), or an address, with "
+          "a port if one of several hosts there is meant")
       ->capture_default_str();
   command->add_option("--protocol", options.listenProtocol, "What the host speaks")
       ->check(CLI::IsMember(link::protocolOptions(true)))
       ->capture_default_str();
   command->add_option("--entity", options.entity, link::kEntityHelp);
+  command
+      ->add_option("--view", options.view,
+                   "The view that is followed, of those a CIGI host controls; without it the first one")
+      ->check(CLI::Range(0, 65535));
   command->add_option("--reply", options.reply, "HOST:PORT that gets a CIGI Start of Frame at 60 Hz");
   addEnding(command, options);
 }

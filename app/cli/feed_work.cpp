@@ -15,8 +15,10 @@ Result<std::unique_ptr<link::Receiver>> openReceiver(const FeedOptions& options)
   how.port = static_cast<std::uint16_t>(options.listen);
   how.bindAddress = options.bind;
   how.sender = options.from;
-  if (const ProtocolName* name = nameOf(options.listenProtocol)) how.protocol = name->wanted;
-  how.entity = options.entity;
+  how.group = options.group;
+  if (const ProtocolName* name = nameOf(options.listenProtocol)) how.choice.protocol = name->wanted;
+  how.choice.chooseEntity(options.entity);
+  if (options.view) how.choice.view = static_cast<std::uint16_t>(*options.view);
   if (!options.reply.empty()) {
     const auto reply = link::parseEndpoint(options.reply);
     if (!reply) return reply.findings();
@@ -31,7 +33,7 @@ void sayListening(const FeedOptions& options, const link::Receiver& receiver) {
 }
 
 void sayWhyNothing(const link::Receiver& receiver, link::LinkWatch& watch) {
-  if (const auto line = watch.look(receiver.statistics(), receiver.senders(), link::now()))
+  if (const auto line = watch.look(receiver, link::now()))
     std::fprintf(stderr, "warning: %s\n", line->c_str());
 }
 
@@ -57,9 +59,12 @@ std::string health(const HostStatistics& s, const link::Senders& senders) {
   append("regional-weather", s.regionalWeather);
   append("other-weather-layers", s.otherLayers);
   append("symbol-packets", s.symbolPackets);
-  append("refused-symbols", s.refusedSymbols);
   if (!s.ownEntity.empty()) line += " entity " + s.ownEntity;
   if (!s.otherEntityNames.empty()) line += " beside " + s.otherEntityNames;
+  append("refused-packets", s.refusedPackets);
+  append("uncounted", s.uncounted);
+  for (const IgnoredPackets& each : s.ignored)
+    append(("ignored " + cigiPacketName(each.id)).c_str(), each.count);
   append("of-refused-senders", senders.refused);
   if (senders.refused > 0) line += " last " + senders.lastRefused;
   for (const HostStatistics& other : senders.others) append(("of-" + other.from).c_str(), other.received);
@@ -67,8 +72,8 @@ std::string health(const HostStatistics& s, const link::Senders& senders) {
 }
 
 void printFirstBad(const HostStatistics& s) {
-  if (!s.firstSymbolReason.empty())
-    std::fprintf(stderr, "first refused symbol packet: %s\n", s.firstSymbolReason.c_str());
+  if (!s.firstRefusedReason.empty())
+    std::fprintf(stderr, "first refused packet: %s\n", s.firstRefusedReason.c_str());
   if (s.firstBadReason.empty()) return;
   std::fprintf(stderr, "first bad datagram: %s\n  %s\n", s.firstBadReason.c_str(), s.firstBadHex.c_str());
 }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/link/link.h"
@@ -48,13 +49,14 @@ class EverySecond {
 
 struct FeedOptions {
   std::string flight, columns, head, headColumns, to, out, protocol = "cigi3", listenProtocol = "auto", reply,
-                                                           bind = link::kOwnMachine, from = link::kAnyone,
-                                                           entity;
+                                                           group, bind = link::kOwnMachine,
+                                                           from = link::kAnyone, entity;
   double rateHz = 60, speed = 1, startS = 0;
   bool loop = false;
   bool skipBadRows = false;  ///< of the head log
   bool symbols = false;
   int listen = 0;
+  std::optional<int> view;  ///< the first that the host controls, if unset
   Ending ending;
 };
 

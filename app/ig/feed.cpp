@@ -97,9 +97,11 @@ class LinkFeed : public Feed {
   std::optional<HostStatistics> statistics() const override { return receiver_->statistics(); }
   std::optional<link::Senders> senders() const override { return receiver_->senders(); }
   std::uint64_t dropped() const override { return receiver_->dropped(); }
-  std::optional<std::string> complaint(double now) override {
-    return watch_.look(receiver_->statistics(), receiver_->senders(), now);
+  link::Questions questions() const override { return receiver_->questions(); }
+  void setGround(std::shared_ptr<const GroundHeights> ground) override {
+    receiver_->setGround(std::move(ground));
   }
+  std::optional<std::string> complaint(double now) override { return watch_.look(*receiver_, now); }
 
  private:
   std::unique_ptr<link::Receiver> receiver_;
@@ -145,15 +147,17 @@ Result<HeadInput> openHeadInput(const Options& options) {
   return {std::move(head), std::move(notes)};
 }
 
-Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake) {
+Result<std::unique_ptr<Feed>> openFeed(const Options& options, const HostParameters& host, const Wake& wake) {
   if (!options.listen) return openFlight(options);
   link::ReceiverOptions receiver;
   receiver.port = *options.listen;
   receiver.bindAddress = options.bindAddress;
   receiver.group = options.group;
   receiver.sender = options.sender;
-  receiver.protocol = options.protocol;
-  receiver.entity = options.entity;
+  receiver.choice = HostChoice(host);
+  receiver.choice.protocol = options.protocol.value_or(receiver.choice.protocol);
+  receiver.choice.chooseEntity(options.entity);
+  if (options.view) receiver.choice.view = options.view;
   receiver.wake = [&wake] { wake.post(); };
   if (!options.reply.empty()) {
     Result<link::Endpoint> reply = link::parseEndpoint(options.reply);

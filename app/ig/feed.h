@@ -27,6 +27,9 @@ class Feed {
   virtual std::optional<HostStatistics> statistics() const { return std::nullopt; }
   virtual std::optional<link::Senders> senders() const { return std::nullopt; }
   virtual std::uint64_t dropped() const { return 0; }
+  virtual link::Questions questions() const { return {}; }
+  /// Sets the terrain that answers what a host asks.
+  virtual void setGround(std::shared_ptr<const GroundHeights>) {}
   /// Returns the line that is due about a host whose datagrams lead to no image (link::LinkWatch).
   virtual std::optional<std::string> complaint(double) { return std::nullopt; }
 };
@@ -35,6 +38,7 @@ class Feed {
 /// name a head, because a trace contains the head that it was decided with.
 Result<HeadInput> openHeadInput(const Options& options);
 /// Opens the flight or the port that the options name. Findings may come with the value.
-Result<std::unique_ptr<Feed>> openFeed(const Options& options, const Wake& wake);
+/// `host` is what the preset says of the host; the options come before it.
+Result<std::unique_ptr<Feed>> openFeed(const Options& options, const HostParameters& host, const Wake& wake);
 
 }  // namespace trimtab::ig

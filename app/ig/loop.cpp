@@ -54,6 +54,8 @@ class Loop {
     // The line is written in one piece, for whoever waits for it.
     if (const std::optional<std::string> line = run_.feed.complaint(now))
       std::cerr << "warning: " + *line + "\n" << std::flush;
+    if (const auto& doubt = run_.session.groundDoubt(); doubt && !std::exchange(saidDoubt_, true))
+      report({toFinding(*doubt)});
   }
 
   /// Decides what came while the program made itself ready like all else, but no image can have shown it in
@@ -103,6 +105,7 @@ class Loop {
     ++summary_.terrainReloads;
     run_.renderer.setTerrain(*database);
     run_.session.setGround(*database);
+    run_.feed.setGround(*database);
     run_.session.setLoadIndex(scene::loadIndexOf(*database));
     run_.damage.setDatabase(*database);
     std::cerr << "note: " << run_.options.terrain.string() << ": loaded again" << std::endl;
@@ -169,6 +172,7 @@ class Loop {
     const Latency& latency = run_.session.latency();
     summary_.packets = run_.session.packets();
     summary_.jumps = run_.session.jumps();
+    if (const auto& doubt = run_.session.groundDoubt()) summary_.groundDoubted = doubt->states;
     summary_.overBudget = run_.session.overBudget();
     summary_.medianFrameMs = frameMs_.median();
     summary_.p99FrameMs = frameMs_.quantile(0.99);
@@ -188,7 +192,8 @@ class Loop {
   std::optional<int> lastBand_;
   std::vector<TraceRow> rows_;
   double lastFrame_ = 0;
-  bool saidAnew_ = false;  ///< that the cost model began anew
+  bool saidAnew_ = false;   ///< that the cost model began anew
+  bool saidDoubt_ = false;  ///< that the host's height above ground is not the terrain's
 };
 
 }  // namespace

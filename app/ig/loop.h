@@ -43,6 +43,7 @@ struct Summary {
   std::uint64_t frames = 0, packets = 0, decisionChanges = 0, jumps = 0, presetReloads = 0,
                 presetsRefused = 0, terrainReloads = 0, terrainsRefused = 0;
   std::uint64_t damagedPlaces = 0;  ///< of the terrain, that were read for an image
+  std::uint64_t groundDoubted = 0;  ///< packets whose height above ground contradicts the terrain
   std::uint64_t depthMapsDrawn = 0, horizonsBuilt = 0, overBudget = 0;
   LeverTally levers;
   std::array<std::uint64_t, kHoldReasons> held{};  ///< images, by what the arbiter of the budget did

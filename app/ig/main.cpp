@@ -80,7 +80,8 @@ int runWith(const Options& options) {
     terrainWatch.emplace(
         options.terrain / terrain::kManifestName, [&options] { return openDatabase(options.terrain); }, news);
   Result<std::shared_ptr<const terrain::Database>> database = openDatabase(options.terrain);
-  Result<std::unique_ptr<Feed>> feed = openFeed(options, wake);
+  Result<std::unique_ptr<Feed>> feed =
+      openFeed(options, preset ? preset->parameters->host : HostParameters{}, wake);
   Result<HeadInput> head = openHeadInput(options);
   bool usable = accepted(preset);
   usable &= accepted(database);
@@ -116,6 +117,7 @@ int runWith(const Options& options) {
 
   Session session(preset->parameters);
   session.setGround(ground);
+  (*feed)->setGround(ground);
   session.setLoadIndex(scene::loadIndexOf(ground));
   // A watched preset may ask for the arbiter later.
   if (preset->parameters->hold.enabled || watch)

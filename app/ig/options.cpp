@@ -45,21 +45,29 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       app.add_option("--listen", options.listen, "UDP port of the host's packets; 0: any free one");
   app.add_option(
          "--bind", options.bindAddress,
-         "address of the interface to listen on; without it only this machine can send; 0.0.0.0: every one")
+         "address of the interface to listen on; without it only this machine can send; 0.0.0.0: every one; "
+         "::: every one, also of IPv6")
       ->needs(listen)
       ->capture_default_str();
   app.add_option("--group", options.group, "multicast group to join on that interface")->needs(listen);
-  app.add_option(
-         "--from", options.sender,
-         "who may send: any, first (the first one to send a good packet, from then on), or an address")
+  app.add_option("--from", options.sender,
+                 "who may send: any, first (the first one to send a good packet, from then on), or an "
+                 "address, with a "
+                 "port if one of several hosts there is meant")
       ->needs(listen)
       ->capture_default_str();
-  app.add_option("--reply", options.reply, "HOST:PORT that gets a Start of Frame for each frame's time")
+  app.add_option(
+         "--reply", options.reply,
+         "HOST:PORT that gets a Start of Frame for each frame's time, with the answers to requests of "
+         "heights and lines of sight")
       ->needs(listen);
   app.add_option("--protocol", options.protocol, "what the host speaks, if it is not to be recognised")
       ->needs(listen)
       ->transform(CLI::CheckedTransformer(protocols));
   app.add_option("--entity", options.entity, link::kEntityHelp)->needs(listen);
+  app.add_option("--view", options.view,
+                 "the view that is drawn, of those the host controls, in place of the preset's host.view")
+      ->needs(listen);
   auto* flight =
       app.add_option("--flight", options.flight, "flight (CSV, pcap) or decision trace: one frame a row");
   app.add_option("--columns", options.columns, link::kColumnsHelp)->needs(flight);

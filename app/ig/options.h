@@ -18,9 +18,10 @@ struct Options {
   std::optional<std::uint16_t> listen;
   std::string bindAddress = link::kOwnMachine, group;  ///< of the port that is listened on
   std::string sender = link::kAnyone;                  ///< see link::ReceiverOptions::sender
-  std::string entity;                                  ///< see link::ReceiverOptions::entity
   std::string reply;                                   ///< HOST:PORT, empty for none
-  HostProtocol protocol = HostProtocol::automatic;
+  std::optional<HostProtocol> protocol;                ///< these three are the preset's, if unset
+  std::string entity;                                  ///< see HostChoice::chooseEntity
+  std::optional<std::uint16_t> view;
   std::filesystem::path flight;
   std::string columns, headColumns;  ///< maps of the columns of flight and head log
   std::string head;                  ///< a head log or a sweep; empty: the head in the states

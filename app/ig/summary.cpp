@@ -161,8 +161,14 @@ std::string summaryJson(const Summary& s, const Feed& feed, const Options& optio
       }
     }
     json["host"]["symbol_packets"] = host->symbolPackets;
-    json["host"]["refused_symbols"] = host->refusedSymbols;
-    if (host->refusedSymbols > 0) json["host"]["first_refused_symbol"] = host->firstSymbolReason;
+    json["host"]["refused_packets"] = host->refusedPackets;
+    if (host->refusedPackets > 0) json["host"]["first_refused_packet"] = host->firstRefusedReason;
+    for (const IgnoredPackets& each : host->ignored)
+      json["host"]["ignored_packets"][cigiPacketName(each.id)] = each.count;
+    json["host"]["uncounted"] = host->uncounted;
+    json["host"]["above_ground_doubted"] = s.groundDoubted;
+    json["host"]["asked"] = feed.questions().asked;
+    json["host"]["answered"] = feed.questions().answered;
     json["host"]["lost"] = host->lost ? nlohmann::ordered_json(*host->lost) : nlohmann::ordered_json();
     addUnusable(json["host"], *host);
   }

@@ -15,14 +15,14 @@
 #include "trimtab/host/received_state.h"
 #include "trimtab/units/result.h"
 
-/// The UDP receiver and the UDP sender that workbench, IG and command line share. IPv4 only.
+/// The UDP receiver and the UDP sender that workbench, IG and command line share.
 namespace trimtab::link {
 
 struct Endpoint {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;
 };
-/// Reads "host:port"; a port alone means 127.0.0.1.
+/// Reads "host:port" or "[address of IPv6]:port"; a port alone means 127.0.0.1.
 Result<Endpoint> parseEndpoint(const std::string& text);
 
 /// Unless told otherwise, nobody on the network reaches a receiver.
@@ -30,8 +30,8 @@ inline constexpr const char *kOwnMachine = "127.0.0.1", *kAnyone = "any", *kFirs
 
 /// Helps with the option --entity of the programs.
 inline constexpr const char* kEntityHelp =
-    "Own aircraft among the entities of a DIS host: SITE:APPLICATION:ENTITY, the last number alone, or the "
-    "marking; without it the first platform that comes";
+    "Own aircraft among the host's entities: its number; of a DIS host also SITE:APPLICATION:ENTITY or the "
+    "marking. Without it entity 0 of a CIGI host, and the first platform of a DIS host";
 /// Returns what --protocol may be: `auto` and all protocols of hosts, or those that can be sent.
 std::vector<std::string> protocolOptions(bool toReceive);
 
@@ -45,18 +45,27 @@ struct Senders {
   std::vector<HostStatistics> others;
 };
 
+/// What hosts asked about the terrain.
+struct Questions {
+  std::uint64_t asked = 0, answered = 0;
+  std::uint64_t dropped = 0;     ///< more at once than can wait
+  bool nowhereToAnswer = false;  ///< asked, but there is no reply address
+};
+
 struct ReceiverOptions {
-  std::uint16_t port = 0;                 ///< 0: any free port
-  std::string bindAddress = kOwnMachine;  ///< the interface's address; 0.0.0.0: every interface
-  std::string group{};                    ///< a multicast group to join there, or empty
+  std::uint16_t port = 0;  ///< 0: any free port
+  std::string bindAddress =
+      kOwnMachine;      ///< the interface's address; 0.0.0.0: every interface; "::": also of IPv6
+  std::string group{};  ///< a multicast group to join there, or empty
   /// Sender that is allowed: kAnyone, kFirst (the address of the first good datagram is held from then on),
-  /// or the address or name of a host. The datagrams of others are counted and thrown away. The port of the
-  /// sender does not matter.
+  /// or the address or name of a host, with a port if one of several on a machine is meant. The datagrams of
+  /// others are counted and thrown away.
   std::string sender = kAnyone;
-  HostProtocol protocol = HostProtocol::automatic;
-  std::string entity{};           ///< own aircraft of a DIS host (HostDecoder)
-  std::optional<Endpoint> reply;  ///< where Start of Frame is sent, `replyRateHz` times per second
-  double replyRateHz = 60;        ///< 0.001..10000
+  HostChoice choice{};  ///< what is followed of what the host says
+  /// Where Start of Frame is sent, `replyRateHz` times per second, with the answers to what the host asked
+  /// about the terrain.
+  std::optional<Endpoint> reply;
+  double replyRateHz = 60;  ///< 0.001..10000
   /// Called on the receiver's thread after each state was queued. It must return at once: post an event.
   std::function<void()> wake;
 };
@@ -77,6 +86,10 @@ class Receiver {
   virtual HostStatistics statistics() const = 0;
   virtual Senders senders() const = 0;
   virtual std::uint64_t dropped() const = 0;
+  /// Sets the terrain that answers what the host asks (HAT/HOT, line of sight); null: nothing valid is
+  /// answered.
+  virtual void setGround(std::shared_ptr<const GroundHeights> ground) = 0;
+  virtual Questions questions() const = 0;
   /// Passes every datagram of an allowed sender from now on to `tap`, on the receiver's thread, for
   /// recording. Null ends this.
   virtual void tap(std::function<void(const Datagram&)> tap) = 0;

@@ -11,8 +11,9 @@ namespace trimtab::link {
 
 /// Says why datagrams lead to no image while a program listens: refused ones, ones for someone else, a port
 /// where two hosts send, senders that are not allowed, a host whose own datagrams lead to nothing new, and a
-/// port where nothing arrives. It says one thing at a time, the first at once and others at most every
-/// kPeriodS.
+/// port where nothing arrives. It also says what of a host is not used: refused packets, types that are not
+/// read, other views, a frame number that stands still, questions that nobody can answer. It says one thing
+/// at a time, the first at once and others at most every kPeriodS; what was never said comes first.
 class LinkWatch {
  public:
   static constexpr double kPeriodS = 10;
@@ -25,15 +26,20 @@ class LinkWatch {
   /// Returns the line that is due at `now`, in seconds on any clock: how many of how many datagrams, the
   /// newest sender, what was expected and found, and what to do. Returns none as long as nothing is new since
   /// what was said last. The seconds without a datagram count from the first call.
-  std::optional<std::string> look(const HostStatistics& followed, const Senders& senders, double now);
+  std::optional<std::string> look(const Receiver& receiver, double now) {
+    return look(receiver.statistics(), receiver.senders(), receiver.questions(), now);
+  }
+  std::optional<std::string> look(const HostStatistics& followed, const Senders& senders,
+                                  const Questions& questions, double now);
 
  private:
   struct Reason {
-    std::string what;  ///< with its sender: tells it from other reasons
-    std::uint64_t datagrams = 0;
+    std::string what;             ///< with its sender: tells it from other reasons
+    std::uint64_t datagrams = 0;  ///< or whatever says that it is news again
     std::string text;
   };
   std::vector<Reason> reasons(const HostStatistics& followed, const Senders& senders, double now) const;
+  static void addUnused(std::vector<Reason>& all, const HostStatistics& followed, const Questions& questions);
 
   std::uint16_t port_;
   std::string address_;

@@ -238,9 +238,8 @@ Result<std::unique_ptr<FeedPlayer>> FeedPlayer::start(Flight flight, const PlayO
   const auto address = resolve(options.to);
   if (!address) errors.insert(errors.end(), address.findings().begin(), address.findings().end());
   if (!errors.empty()) return errors;
-  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (socket.get() < 0 ||
-      ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0)
+  Descriptor socket(::socket(address->family(), SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (socket.get() < 0 || ::connect(socket.get(), address->raw(), address->size) != 0)
     return Finding{Severity::error, "udp " + addressText(*address), "", "an address that can be reached",
                    std::strerror(errno)};
   return std::unique_ptr<FeedPlayer>(

@@ -11,7 +11,10 @@
 #include <cstring>
 #include <thread>
 
+#include "gate.h"
+#include "multicast.h"
 #include "socket.h"
+#include "terrain_desk.h"
 #include "trimtab/host/encoder.h"
 #include "trimtab/host/received_state.h"
 
@@ -26,51 +29,24 @@ double seconds(const timespec& t) {
   return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
 }
 
-/// Lets through whom the options allow.
-class Gate {
- public:
-  Gate(const std::string& allowed, std::optional<in_addr> address, std::optional<in_addr> group)
-      : address_(address), group_(group) {
-    senders_.allowed = allowed;
-  }
-  /// `to`: where the datagram was addressed to.
-  bool isOpenTo(const sockaddr_in& sender, const in_addr& to) {
-    // A member of a group is bound to every interface, and listens to no one who addresses it directly from
-    // elsewhere.
-    constexpr std::uint32_t kLoopback = 127;
-    const bool addressed = !group_ || to.s_addr == group_->s_addr || ntohl(to.s_addr) >> 24U == kLoopback;
-    if (addressed && (!address_ || address_->s_addr == sender.sin_addr.s_addr)) return true;
-    ++senders_.refused;
-    senders_.lastRefused = addressText(sender);
-    return false;
-  }
-  /// A stray datagram that means nothing must not shut the host out, so only good ones count.
-  void heardGood(const sockaddr_in& sender) {
-    if (address_ || senders_.allowed != kFirst) return;
-    address_ = sender.sin_addr;
-    senders_.allowed = addressText(sender);
-    senders_.allowed.erase(senders_.allowed.rfind(':'));
-  }
-  const Senders& senders() const { return senders_; }
-
- private:
-  std::optional<in_addr> address_;  ///< the only one that is allowed
-  std::optional<in_addr> group_;
-  Senders senders_;
+/// Where Start of Frame goes.
+struct Reply {
+  Address to;
+  Descriptor socket;  ///< none: the receiver's own serves, so that a host may answer where it came from
 };
 
 class UdpReceiver final : public Receiver {
  public:
   UdpReceiver(Descriptor socket, Descriptor stop, std::uint16_t port, const ReceiverOptions& options,
-              std::optional<sockaddr_in> reply, Gate gate)
+              std::optional<Reply> reply, Gate gate)
       : socket_(std::move(socket)),
         stop_(std::move(stop)),
         port_(port),
-        reply_(reply),
+        reply_(std::move(reply)),
         replyPeriod_(std::chrono::duration_cast<Clock::duration>(
             std::chrono::duration<double>(1 / options.replyRateHz))),
         wake_(options.wake),
-        decoder_(options.protocol, options.entity),
+        decoder_(options.choice),
         gate_(std::move(gate)) {
     queue_.reserve(kQueue);
     thread_ = std::thread([this] { run(); });
@@ -109,6 +85,12 @@ class UdpReceiver final : public Receiver {
     const std::lock_guard lock(mutex_);
     return dropped_;
   }
+  void setGround(std::shared_ptr<const GroundHeights> ground) override { desk_.setGround(std::move(ground)); }
+  Questions questions() const override {
+    Questions questions = desk_.questions();
+    questions.nowhereToAnswer = questions.asked > 0 && !reply_;
+    return questions;
+  }
   void tap(std::function<void(const Datagram&)> tap) override {
     const std::lock_guard lock(tapMutex_);
     tap_ = std::move(tap);
@@ -122,17 +104,19 @@ class UdpReceiver final : public Receiver {
 
   Descriptor socket_, stop_;
   std::uint16_t port_;
-  std::optional<sockaddr_in> reply_;
+  std::optional<Reply> reply_;
   Clock::duration replyPeriod_;
   std::function<void()> wake_;
 
   // Only the receiver's thread uses these.
   HostDecoder decoder_;
   std::array<std::byte, 65536> buffer_;
-  sockaddr_in sender_{};
+  Address sender_;
   std::string from_;
   std::uint32_t igFrame_ = 0;
+  std::vector<TerrainQuery> queries_;
 
+  TerrainDesk desk_;
   std::mutex tapMutex_;
   std::function<void(const Datagram&)> tap_;
 
@@ -180,25 +164,35 @@ void UdpReceiver::run() {
 }
 
 bool UdpReceiver::receiveOne() {
-  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(in_pktinfo))> control;
-  sockaddr_in sender{};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(in6_pktinfo))> control;
+  Address sender;
   iovec data{buffer_.data(), buffer_.size()};
   msghdr message{};
-  message.msg_name = &sender;
-  message.msg_namelen = sizeof sender;
+  message.msg_name = &sender.storage;
+  message.msg_namelen = sender.size;
   message.msg_iov = &data;
   message.msg_iovlen = 1;
   message.msg_control = control.data();
   message.msg_controllen = control.size();
   const ssize_t length = ::recvmsg(socket_.get(), &message, MSG_DONTWAIT);
   if (length < 0) return errno == EINTR;
+  sender.size = message.msg_namelen;
   double kernelTime = 0;
-  in_addr to{};
+  Address to;
   for (cmsghdr* c = CMSG_FIRSTHDR(&message); c; c = CMSG_NXTHDR(&message, c)) {
     if (c->cmsg_level == IPPROTO_IP && c->cmsg_type == IP_PKTINFO) {
       in_pktinfo info{};
       std::memcpy(&info, CMSG_DATA(c), sizeof info);
-      to = info.ipi_addr;
+      auto& to4 = reinterpret_cast<sockaddr_in&>(to.storage);
+      to4.sin_family = AF_INET;
+      to4.sin_addr = info.ipi_addr;
+    }
+    if (c->cmsg_level == IPPROTO_IPV6 && c->cmsg_type == IPV6_PKTINFO) {
+      in6_pktinfo info{};
+      std::memcpy(&info, CMSG_DATA(c), sizeof info);
+      auto& to6 = reinterpret_cast<sockaddr_in6&>(to.storage);
+      to6.sin6_family = AF_INET6;
+      to6.sin6_addr = info.ipi6_addr;
     }
     if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
     timespec stamp{};
@@ -209,8 +203,8 @@ bool UdpReceiver::receiveOne() {
     const std::lock_guard lock(mutex_);
     if (!gate_.isOpenTo(sender, to)) return true;
   }
-  if (sender.sin_addr.s_addr != sender_.sin_addr.s_addr || sender.sin_port != sender_.sin_port ||
-      from_.empty()) {
+  if (from_.empty() || sender.size != sender_.size ||
+      std::memcmp(&sender.storage, &sender_.storage, sender.size) != 0) {
     sender_ = sender;
     from_ = addressText(sender);
   }
@@ -222,6 +216,9 @@ void UdpReceiver::accept(std::span<const std::byte> bytes, double kernelTime) {
   const Datagram datagram{bytes, kernelTime, from_};
   const auto state = decoder_.accept(datagram);
   const double decodedTime = now();
+  decoder_.takeQueries(queries_);
+  if (!queries_.empty()) desk_.ask(queries_, reply_.has_value());
+  queries_.clear();
   {
     const std::lock_guard lock(tapMutex_);
     if (tap_) tap_(datagram);
@@ -247,12 +244,16 @@ void UdpReceiver::accept(std::span<const std::byte> bytes, double kernelTime) {
 }
 
 void UdpReceiver::sendStartOfFrame() {
-  const auto encode =
-      decoder_.hostProtocol() == WireProtocol::cigi4 ? encodeCigi4StartOfFrame : encodeCigiStartOfFrame;
-  const auto bytes = encode(++igFrame_, decoder_.lastHostFrame().value_or(0), now(), decoder_.hostOrder());
+  const ByteOrder order = decoder_.hostOrder();
+  const bool is4 = decoder_.hostProtocol() == WireProtocol::cigi4;
+  const auto encode = is4 ? encodeCigi4StartOfFrame : encodeCigiStartOfFrame;
+  auto bytes = encode(++igFrame_, decoder_.lastHostFrame().value_or(0), now(), order);
+  // Requests of CIGI 4 are not read, so nothing is asked there.
+  if (!is4) desk_.takeAnswers(bytes, igFrame_, order);
   // A host that is not there yet is no reason to stop.
-  static_cast<void>(::sendto(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
-                             reinterpret_cast<const sockaddr*>(&*reply_), sizeof *reply_));
+  const int socket = reply_->socket.get() >= 0 ? reply_->socket.get() : socket_.get();
+  static_cast<void>(::sendto(socket, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
+                             reply_->to.raw(), reply_->to.size));
 }
 
 }  // namespace
@@ -269,21 +270,6 @@ void raisePriority() {
   static_cast<void>(::pthread_setschedparam(::pthread_self(), SCHED_RR, &lowest));
 }
 
-/// Joins a group on one interface, and takes datagrams of groups that this socket joined only.
-static Result<Done> join(int socket, const std::string& group, const in_addr& onInterface,
-                         const std::string& where) {
-  ip_mreq request{};
-  request.imr_interface = onInterface;
-  const bool read = inet_pton(AF_INET, group.c_str(), &request.imr_multiaddr) == 1;
-  if (!read || !IN_MULTICAST(ntohl(request.imr_multiaddr.s_addr)))
-    return Finding{Severity::error, where, "", "a multicast group, 224.0.0.0 to 239.255.255.255", group};
-  const int off = 0;
-  ::setsockopt(socket, IPPROTO_IP, IP_MULTICAST_ALL, &off, sizeof off);
-  if (::setsockopt(socket, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) != 0)
-    return Finding{Severity::error, where, "", "to join the group " + group, std::strerror(errno)};
-  return Done{};
-}
-
 Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options) {
   const std::string where = "udp " + options.bindAddress + ':' + std::to_string(options.port);
   const auto failure = [&where](const std::string& expected, const std::string& found) {
@@ -293,51 +279,49 @@ Result<std::unique_ptr<Receiver>> Receiver::open(const ReceiverOptions& options)
     return failure("a reply rate of 0.001..10000 Hz", std::to_string(options.replyRateHz));
   const auto own = resolve({options.bindAddress, options.port});
   if (!own) return own.findings();
-  std::optional<sockaddr_in> reply;
+  std::optional<Address> group;
+  if (!options.group.empty()) {
+    auto resolved = resolveGroup(options.group, options.port, where);
+    if (!resolved) return resolved.findings();
+    group = *resolved;
+  }
+  auto gate = Gate::open(options.sender, group);
+  if (!gate) return gate.findings();
+  // Each member of a group gets every datagram. They are addressed to the group, so a socket that is bound to
+  // the interface's own address would get none.
+  Address address = group ? anyAddress(group->family(), options.port) : *own;
+  Descriptor socket(::socket(address.family(), SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  Descriptor stop(::eventfd(0, EFD_CLOEXEC));
+  if (socket.get() < 0 || stop.get() < 0) return failure("a UDP socket", std::strerror(errno));
+  std::optional<Reply> reply;
   if (options.reply) {
     const auto resolved = resolve(*options.reply);
     if (!resolved) return resolved.findings();
-    reply = *resolved;
+    const bool sameFamily = resolved->family() == address.family();
+    reply = Reply{*resolved,
+                  Descriptor(sameFamily ? -1 : ::socket(resolved->family(), SOCK_DGRAM | SOCK_CLOEXEC, 0))};
   }
-  std::optional<in_addr> only;
-  if (options.sender != kAnyone && options.sender != kFirst) {
-    const auto resolved = resolve({options.sender, 0});
-    if (!resolved) return resolved.findings();
-    only = resolved->sin_addr;
-  }
-  Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  Descriptor stop(::eventfd(0, EFD_CLOEXEC));
-  if (socket.get() < 0 || stop.get() < 0) return failure("a UDP socket", std::strerror(errno));
-  const int on = 1, room = 4 << 20;
+  const int on = 1, off = 0, room = 4 << 20;
   ::setsockopt(socket.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
-  sockaddr_in address = *own;
-  std::optional<in_addr> group;
-  if (options.group.empty()) {
-    // The socket is opened without SO_REUSEADDR: two receivers on one port would share its datagrams, and
-    // neither would know.
-  } else {
-    // Each member of a group gets every datagram. They are addressed to the group, so a socket that is bound
-    // to the interface's own address would get none.
+  // Every interface means every host, also those of IPv4.
+  if (address.family() == AF_INET6) ::setsockopt(socket.get(), IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
+  if (group) {
     ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-    address.sin_addr.s_addr = htonl(INADDR_ANY);
-    const Result<Done> joined = join(socket.get(), options.group, own->sin_addr, where);
+    const Result<Done> joined = join(socket.get(), *group, *own, where);
     if (!joined) return joined.findings();
-    group.emplace();
-    static_cast<void>(inet_pton(AF_INET, options.group.c_str(), &*group));
-    ::setsockopt(socket.get(), IPPROTO_IP, IP_PKTINFO, &on, sizeof on);
-  }
-  if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+  }  // else without SO_REUSEADDR: two receivers on one port would share its datagrams, and neither would know
+  if (::bind(socket.get(), address.raw(), address.size) != 0) {
     const std::string port = std::to_string(options.port);
     if (errno == EADDRINUSE) return failure("a free port", "port " + port + " is taken by another program");
     return failure("port " + port + " at " + options.bindAddress, std::strerror(errno));
   }
-  socklen_t size = sizeof address;
-  if (::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&address), &size) != 0)
+  address.size = sizeof address.storage;
+  if (::getsockname(socket.get(), address.raw(), &address.size) != 0)
     return failure("the number of the port", std::strerror(errno));
   return std::unique_ptr<Receiver>(std::make_unique<UdpReceiver>(std::move(socket), std::move(stop),
-                                                                 ntohs(address.sin_port), options, reply,
-                                                                 Gate(options.sender, only, group)));
+                                                                 address.port(), options, std::move(reply),
+                                                                 std::move(gate).value()));
 }
 
 }  // namespace trimtab::link

@@ -5,10 +5,13 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "packet_fault.h"
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/host_symbols.h"
+#include "trimtab/host/decoder.h"
+#include "trimtab/host/terrain_query.h"
 
 /// CIGI 3.x as an image generator reads it: messages of packets `u8 id, u8 size, ...` in the sender's byte
 /// order.
@@ -17,15 +20,21 @@ namespace trimtab::cigi3 {
 enum PacketId : std::uint8_t {
   kIgControl = 1,
   kEntityControl = 2,
+  kClampedEntityControl = 3,
   kAtmosphereControl = 10,
   kWeatherControl = 12,
   kViewControl = 16,
   kViewDefinition = 21,
+  kHeightRequest = 24,
+  kSegmentRequest = 25,
+  kVectorRequest = 26,
   kStartOfFrame = 101
 };
 inline constexpr std::size_t kIgControlSize = 24, kOldIgControlSize = 16, kEntityControlSize = 48,
-                             kAtmosphereControlSize = 32, kWeatherControlSize = 56, kViewControlSize = 32,
-                             kViewDefinitionSize = 32, kStartOfFrameSize = 24;
+                             kClampedEntityControlSize = 24, kAtmosphereControlSize = 32,
+                             kWeatherControlSize = 56, kViewControlSize = 32, kViewDefinitionSize = 32,
+                             kStartOfFrameSize = 24, kHeightRequestSize = 32, kSegmentRequestSize = 64,
+                             kVectorRequestSize = 56;
 inline constexpr std::uint16_t kByteSwapMagic = 0x8000;
 /// A timestamp counts ticks of 10 microseconds (dissectors label them microseconds) and wraps after 11.9
 /// hours.
@@ -33,6 +42,15 @@ inline constexpr double kTickS = 1e-5;
 inline constexpr std::uint16_t kOwnship = 0;
 /// Layers of Weather Control that are precipitation; the others are fog, clouds, sleet, hail, sand and dust.
 inline constexpr std::uint8_t kRainLayer = 4, kSnowLayer = 5;
+
+/// Lists of what a host has beside what is followed hold at most so many, for people to choose from.
+inline constexpr std::size_t kMostNamed = 16;
+
+/// Which of a host's entities is the own aircraft, and which of its views is drawn.
+struct Follow {
+  std::uint16_t entity = kOwnship;
+  std::optional<std::uint16_t> view;  ///< if unset, the first one
+};
 
 /// A layer of precipitation of global scope, as last heard.
 struct Layer {
@@ -44,10 +62,13 @@ struct Layer {
 
 /// Holds what the packets of a session add up to: a packet that is not sent again keeps its effect.
 struct Session {
-  std::optional<GeodeticPosition> position;  ///< of the ownship
+  std::optional<GeodeticPosition>
+      position;  ///< of the own aircraft; its height counts from what `clamp` says
   Attitude attitude;
+  GroundClamp clamp = GroundClamp::none;
   std::optional<Attitude> head;
-  std::optional<std::uint16_t> headView;  ///< the view whose eyepoint is followed: the first one seen
+  std::optional<std::uint16_t>
+      headView;  ///< the view whose eyepoint is followed: the first one, if none is chosen
   std::optional<Metres> visibility;
   std::optional<Wind> atmosphereWind;
   std::optional<Layer> rain, snow;
@@ -70,16 +91,21 @@ struct Message {
   std::optional<PacketFault> cutAt;    ///< packets from here on were dropped; those before count
   int regionalWeather = 0;             ///< Weather Control of a region or an entity: passed over
   int otherLayers = 0;                 ///< Weather Control of a layer that is not rain or snow: passed over
-  int otherEntities = 0;               ///< Entity Control of others than the ownship: passed over
-  std::optional<PacketFault> otherEntity;  ///< the first of them, as what the ownship should have been
-  int symbolPackets = 0;                   ///< applied
-  int refusedSymbols = 0;                  ///< symbol packets that were left out
-  std::optional<PacketFault> symbolFault;  ///< of the first of them
+  int refusedPackets = 0;              ///< left out; all other packets count
+  std::optional<PacketFault> refused;  ///< the first of them
+  std::optional<PacketFault> ownship;  ///< the last of them that would have moved the own aircraft
+  std::vector<std::uint16_t> otherEntities;  ///< moved by Entity Control, each once, the first few
+  std::optional<std::size_t> otherEntityAt;  ///< offset of the first one's number
+  std::vector<std::uint16_t> views;          ///< controlled or defined, each once, the first few
+  std::vector<IgnoredPackets> ignored;       ///< of types that are not read, each type once
+  std::vector<TerrainQuery> queries;
+  int symbolPackets = 0;  ///< applied
 };
 
 /// Returns the byte order that the first packet's magic shows, if this looks like CIGI 3 at all.
 std::optional<ByteOrder> byteOrder(std::span<const std::byte> bytes);
-/// Reads one message into `session`; with a fault, `session` is only meant to be thrown away.
-Message parse(std::span<const std::byte> bytes, Session& session);
+/// Reads one message into `session`. With a fault, nothing of it is read. A packet that is refused changes
+/// nothing, and costs the message nothing else.
+Message parse(std::span<const std::byte> bytes, Session& session, const Follow& follow = {});
 
 }  // namespace trimtab::cigi3

@@ -102,18 +102,18 @@ class Rewritten {
   }
   std::span<const std::byte> message() const { return message_; }
 
-  /// Turns a place in the message of 3.3 into that in 4.0.
-  void place(std::optional<PacketFault>& fault) const {
-    if (!fault) return;
-    const auto after = std::upper_bound(packets_.begin(), packets_.end(), fault->offset,
+  /// Returns where a byte of the message of 3.3 is in that of 4.0.
+  std::size_t placeOf(std::size_t offset) const {
+    const auto after = std::upper_bound(packets_.begin(), packets_.end(), offset,
                                         [](std::size_t at, const Packet& p) { return at < p.start; });
-    if (after == packets_.begin()) return;
+    if (after == packets_.begin()) return offset;
     const Packet& packet = *(after - 1);
-    const std::size_t inside = fault->offset - packet.start;
-    fault->offset = packet.at;
+    const std::size_t inside = offset - packet.start;
+    std::size_t place = packet.at;
     for (const Field& f : packet.layout->fields)
       if (inside >= f.in3 && inside < std::size_t{f.in3} + f.bytes)
-        fault->offset = packet.at + f.at + (inside - f.in3);
+        place = packet.at + f.at + (inside - f.in3);
+    return place;
   }
 
  private:
@@ -146,14 +146,15 @@ std::optional<ByteOrder> byteOrder(std::span<const std::byte> bytes, std::uint16
   return std::nullopt;
 }
 
-cigi3::Message parse(std::span<const std::byte> bytes, cigi3::Session& session) {
+cigi3::Message parse(std::span<const std::byte> bytes, cigi3::Session& session, const cigi3::Follow& follow) {
   const auto order = byteOrder(bytes, kIgControl);
   if (!order)
     return refused(
         {0, "CIGI 4 message", "IG Control of a host: size 24, id 0, major version 4",
          "something else in its first " + std::to_string(std::min<std::size_t>(bytes.size(), 5)) + " bytes"});
   Rewritten rewritten(bytes, *order);
-  std::optional<PacketFault> cutAt;
+  std::optional<PacketFault> cutAt, wrongSize;
+  int wrongSizes = 0;
   for (std::size_t at = 0; at < bytes.size();) {
     constexpr std::size_t kHeader = 4;
     const std::size_t left = bytes.size() - at;
@@ -168,9 +169,15 @@ cigi3::Message parse(std::span<const std::byte> bytes, cigi3::Session& session) 
     const auto layout = std::find_if(std::begin(kLayouts), std::end(kLayouts),
                                      [id](const Layout& known) { return known.id == id; });
     if (layout != std::end(kLayouts)) {
-      if (size != layout->size)
-        return refused(
-            {at, "size of packet " + std::to_string(id), std::to_string(layout->size), std::to_string(size)});
+      if (size != layout->size) {
+        PacketFault fault{at, "size of packet " + std::to_string(id), std::to_string(layout->size),
+                          std::to_string(size)};
+        if (id == kIgControl) return refused(std::move(fault));
+        ++wrongSizes;
+        if (!wrongSize) wrongSize = std::move(fault);
+        at += size;
+        continue;
+      }
       constexpr unsigned kState = 3, kDestroyed = 2;
       const bool used =
           id != kEntityControl || (std::to_integer<unsigned>(bytes[at + 4]) & kState) == kDestroyed;
@@ -179,8 +186,12 @@ cigi3::Message parse(std::span<const std::byte> bytes, cigi3::Session& session) 
     at += size;
   }
   if (rewritten.message().empty()) return refused(*cutAt);
-  cigi3::Message message = cigi3::parse(rewritten.message(), session);
-  for (auto* fault : {&message.fault, &message.otherEntity, &message.symbolFault}) rewritten.place(*fault);
+  cigi3::Message message = cigi3::parse(rewritten.message(), session, follow);
+  for (auto* fault : {&message.fault, &message.refused, &message.ownship})
+    if (*fault) (*fault)->offset = rewritten.placeOf((*fault)->offset);
+  if (message.otherEntityAt) message.otherEntityAt = rewritten.placeOf(*message.otherEntityAt);
+  message.refusedPackets += wrongSizes;
+  if (wrongSize && !message.refused) message.refused = std::move(wrongSize);
   message.cutAt = std::move(cutAt);
   return message;
 }

@@ -1,11 +1,14 @@
 #include "trimtab/host/decoder.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "one_sender.h"
 #include "trimtab/host/motion.h"
 #include "trimtab/host/protocol_names.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab {
 namespace {
@@ -15,9 +18,26 @@ constexpr std::size_t kMostSenders = 8;
 
 }  // namespace
 
+HostChoice::HostChoice(const HostParameters& parameters)
+    : protocol(parameters.protocol), entity(static_cast<std::uint16_t>(parameters.entity.value())) {
+  if (parameters.view.value() >= 0) view = static_cast<std::uint16_t>(parameters.view.value());
+}
+
+void HostChoice::chooseEntity(const std::string& name) {
+  if (name.empty()) return;
+  disEntity = name;
+  const std::optional<double> number = readNumber(name);
+  constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
+  if (number && *number >= 0 && *number <= kMost && *number == std::floor(*number))
+    entity = static_cast<std::uint16_t>(*number);
+}
+
+std::string HostChoice::ofDis() const {
+  return disEntity.empty() && entity != 0 ? std::to_string(entity) : disEntity;
+}
+
 struct HostDecoder::Link {
-  HostProtocol wanted = HostProtocol::automatic;
-  std::string entity;
+  HostChoice choice;
   std::vector<std::unique_ptr<OneSender>> senders;
   OneSender* followed = nullptr;  ///< whose health is shown
   OneSender* newest = nullptr;    ///< the last one that was understood
@@ -39,7 +59,7 @@ OneSender& HostDecoder::Link::senderOf(const Datagram& datagram) {
     return *followed;
   }
   if (senders.size() == kMostSenders) forgetOne();
-  senders.push_back(std::make_unique<OneSender>(datagram.from, wanted, entity));
+  senders.push_back(std::make_unique<OneSender>(datagram.from, choice));
   return *senders.back();
 }
 
@@ -68,9 +88,8 @@ void HostDecoder::Link::follow(OneSender& sender) {
     sender.noteAlongside();
 }
 
-HostDecoder::HostDecoder(HostProtocol protocol, std::string entity) : link_(std::make_unique<Link>()) {
-  link_->wanted = protocol;
-  link_->entity = std::move(entity);
+HostDecoder::HostDecoder(const HostChoice& choice) : link_(std::make_unique<Link>()) {
+  link_->choice = choice;
 }
 HostDecoder::~HostDecoder() = default;
 HostDecoder::HostDecoder(HostDecoder&&) noexcept = default;
@@ -108,6 +127,9 @@ double HostDecoder::rateAt(double now) const {
 std::shared_ptr<const HostSymbols> HostDecoder::symbols() const {
   return link_->newest ? link_->newest->symbols() : nullptr;
 }
+void HostDecoder::takeQueries(std::vector<TerrainQuery>& queries) {
+  if (link_->newest) link_->newest->takeQueries(queries);
+}
 std::optional<std::uint32_t> HostDecoder::lastHostFrame() const {
   return link_->newest ? link_->newest->lastFrame() : std::nullopt;
 }
@@ -119,10 +141,9 @@ ByteOrder HostDecoder::hostOrder() const {
 }
 
 void HostDecoder::reset() {
-  auto fresh = std::make_unique<Link>();
-  fresh->wanted = link_->wanted;
-  fresh->entity = link_->entity;
-  link_ = std::move(fresh);
+  const HostChoice choice = link_->choice;
+  link_ = std::make_unique<Link>();
+  link_->choice = choice;
 }
 
 }  // namespace trimtab

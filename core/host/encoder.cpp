@@ -20,7 +20,7 @@ void putEntityControl(PacketWriter& w, const AircraftState& state) {
   constexpr unsigned kActive = 1;
   w.begin(cigi3::kEntityControl, cigi3::kEntityControlSize);
   w.put(2, cigi3::kOwnship);
-  w.put(4, bits(kActive));
+  w.put(4, bits(kActive | static_cast<unsigned>(state.clamp) << 5U));
   w.put(6, bits(255));  // opaque
   w.putFloat(12, state.attitude.roll.value());
   w.putFloat(16, state.attitude.pitch.value());

@@ -77,6 +77,11 @@ void appendLinkNotes(const HostStatistics& s, const std::string& where, Findings
                         toString(s.newestNotForUs.value_or(Finding{})));
   count(s.truncated, "messages with a broken tail; the first bad datagram: " + s.firstBadReason,
         Severity::warning);
+  count(s.refusedPackets, "packets left out of their messages; the first: " + s.firstRefusedReason,
+        Severity::warning);
+  count(s.uncounted, "messages used although their frame number stands still");
+  for (const IgnoredPackets& each : s.ignored)
+    count(each.count, "packets not read: " + cigiPacketName(each.id));
   count(s.notReady, "datagrams below -1000 ft: the simulator was not ready; dropped");
   count(s.lost.value_or(0), "frames lost, by their numbers");
   count(s.repeated, "repeated frames, passed over");
@@ -164,6 +169,14 @@ Result<Flight> flightFromDatagrams(std::span<const CapturedDatagram> datagrams, 
   }
   const double begin = states.front().time;
   for (AircraftState& state : states) state.time -= begin;
+  const auto clamped = std::count_if(states.begin(), states.end(), [](const AircraftState& state) {
+    return state.clamp != GroundClamp::none;
+  });
+  if (clamped > 0)
+    findings.push_back({Severity::note, where, "", "",
+                        std::to_string(clamped) +
+                            " states stand on the ground: their heights count from the terrain that they are "
+                            "flown over; a table of them does not say so"});
   appendMotionNotes(flight, where, findings);
   return {std::move(flight), std::move(findings)};
 }

@@ -7,6 +7,8 @@ constexpr std::int64_t kWindow = 64;  // how far back a late packet can still be
                                       // how far ahead a number is believed without another one
 constexpr std::int64_t kLongestOutage = 36000;  // ten minutes at 60 Hz; more is another count, not loss
 constexpr int kRestartAfterSeen = 5, kRestartAfterNew = 15;
+// Networks repeat a datagram once or twice. A number that comes so often again is no count.
+constexpr int kStandsAfter = 5;
 
 }  // namespace
 
@@ -51,6 +53,16 @@ FrameOrder::Verdict FrameOrder::judgeFar(std::uint32_t frame, std::int64_t ahead
 }
 
 FrameOrder::Verdict FrameOrder::accept(std::uint32_t frame, bool mayRestart) {
+  still_ = newest_ == frame ? still_ + 1 : 0;
+  newest_ = frame;
+  if (still_ < kStandsAfter) return judge(frame, mayRestart);
+  // The first one after a count that was left is a new beginning.
+  if (last_ == frame) return Verdict::uncounted;
+  if (doubted_ == frame) --implausible_;
+  return restart(frame);
+}
+
+FrameOrder::Verdict FrameOrder::judge(std::uint32_t frame, bool mayRestart) {
   if (!last_) {
     restart(frame);
     return Verdict::next;

@@ -8,9 +8,9 @@ namespace trimtab::limits {
 /// A float's rounding of 90 or 180 degrees from radians lies just outside; it is meant as the limit itself.
 inline constexpr double kSlack = 1e-4;
 inline constexpr double kLatitude = 90 + kSlack;
-inline constexpr double kLongitude = 180 + kSlack;
 inline constexpr double kPitch = 90 + kSlack;
-inline constexpr double kTurn = 360 + kSlack;  ///< headings and rolls: hosts write -180..180 and 0..360
+inline constexpr double kTurn =
+    360 + kSlack;  ///< headings, rolls and longitudes: hosts write -180..180 and 0..360
 inline constexpr double kLowest = -20000, kHighest = 1e6;  ///< metres
 inline constexpr double kVisibility = 1e7;                 ///< metres
 /// An aircraft below this height (-1,000 ft) means that the simulator is not ready yet: FlightGear starts at

@@ -54,8 +54,8 @@ std::optional<PacketFault> parse(std::span<const std::byte> bytes, AircraftState
                        "let the host send the structure with its padding, as FlightGear does"};
 
   FieldReader read(bytes, ByteOrder::big);
-  const double longitude = read.number<double>(kLongitude, "longitude", -limits::kLongitude,
-                                               limits::kLongitude, "deg", kDegreesPerRadian);
+  const double longitude =
+      read.number<double>(kLongitude, "longitude", -limits::kTurn, limits::kTurn, "deg", kDegreesPerRadian);
   const double latitude = read.number<double>(kLatitude, "latitude", -limits::kLatitude, limits::kLatitude,
                                               "deg", kDegreesPerRadian);
   const double height = read.number<double>(kAltitude, "altitude", limits::kLowest, limits::kHighest, "m");

@@ -81,7 +81,7 @@ std::optional<double> HostClock::advance(std::uint32_t ticks) {
 }
 
 WireProtocol OneSender::detect(std::span<const std::byte> bytes) const {
-  const ProtocolName* wanted = nameOf(wanted_);
+  const ProtocolName* wanted = nameOf(choice_.protocol);
   return wanted ? wanted->wire : recognised(bytes);
 }
 
@@ -137,7 +137,7 @@ void OneSender::refuse(const Datagram& datagram, const PacketFault& fault) {
 }
 
 std::optional<PacketFault> OneSender::otherThanWanted(std::span<const std::byte> bytes) const {
-  const ProtocolName *wanted = nameOf(wanted_), *found = nameOf(recognised(bytes));
+  const ProtocolName *wanted = nameOf(choice_.protocol), *found = nameOf(recognised(bytes));
   if (!wanted || !found || wanted == found) return std::nullopt;
   return PacketFault{0, "protocol", std::string(wanted->label) + ", as was asked for", found->label,
                      "ask for the protocol that the host speaks, or for auto"};
@@ -184,9 +184,10 @@ std::optional<AircraftState> OneSender::finish(const AircraftState& state, doubl
 
 std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram, WireProtocol protocol) {
   const auto parse = protocol == WireProtocol::cigi4 ? cigi4::parse : cigi3::parse;
-  // Into a copy: a message that turns out bad at its last packet has changed nothing.
+  // Into a copy: a message that comes late has changed nothing.
+  const cigi3::Follow follow{choice_.entity, choice_.view};
   cigi3::Session candidate = session_;
-  const cigi3::Message message = parse(datagram.bytes, candidate);
+  cigi3::Message message = parse(datagram.bytes, candidate, follow);
   if (message.fault) {
     refuse(datagram, *message.fault);
     return std::nullopt;
@@ -197,31 +198,29 @@ std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram, Wir
   }
   const double gap = gapTo(datagram);
   const bool silence = gap > kSilenceS;
-  const auto verdict = order_.accept(message.frame, silence);
-  statistics_.lost = order_.lost();
+  using Verdict = FrameOrder::Verdict;
+  const Verdict verdict = order_.accept(message.frame, silence);
+  statistics_.lost = verdict == Verdict::uncounted ? std::nullopt : std::optional(order_.lost());
   statistics_.implausible = order_.implausible();
-  if (verdict != FrameOrder::Verdict::next && verdict != FrameOrder::Verdict::restarted) {
-    statistics_.repeated += verdict == FrameOrder::Verdict::repeated;
-    statistics_.reordered += verdict == FrameOrder::Verdict::reordered;
+  if (verdict == Verdict::repeated || verdict == Verdict::reordered || verdict == Verdict::implausible) {
+    statistics_.repeated += verdict == Verdict::repeated;
+    statistics_.reordered += verdict == Verdict::reordered;
     heard(datagram, protocol, silence);
     return unused("frame number of IG Control",
                   "one that rises, above " + std::to_string(order_.last().value_or(0)),
                   std::to_string(message.frame));
   }
-  const bool restarted = verdict == FrameOrder::Verdict::restarted;
+  statistics_.uncounted += verdict == Verdict::uncounted;
+  const bool restarted = verdict == Verdict::restarted;
   if (restarted) {
     ++statistics_.restarts;
     clock_.restart();
     candidate = {};
-    static_cast<void>(parse(datagram.bytes, candidate));
+    static_cast<void>(parse(datagram.bytes, candidate, follow));
   }
   session_ = candidate;
-  statistics_.regionalWeather += static_cast<std::uint64_t>(message.regionalWeather);
-  statistics_.otherLayers += static_cast<std::uint64_t>(message.otherLayers);
-  statistics_.symbolPackets += static_cast<std::uint64_t>(message.symbolPackets);
-  statistics_.refusedSymbols += static_cast<std::uint64_t>(message.refusedSymbols);
-  if (message.symbolFault && statistics_.firstSymbolReason.empty())
-    statistics_.firstSymbolReason = toString(*message.symbolFault);
+  notePackets(message);
+  queries_ = std::move(message.queries);
   hostOrder_ = message.order;
 
   const auto hostTime = message.ticks ? clock_.advance(*message.ticks) : std::nullopt;
@@ -234,12 +233,17 @@ std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram, Wir
       meter_.deviated(gap - even);
   }
   heard(datagram, protocol, silence);
+  if (message.ownship) {
+    statistics_.newestUnused = toFinding(*message.ownship, statistics_.from);
+    return std::nullopt;
+  }
   if (!session_.position) return withoutOwnship(message);
   AircraftState state;
   state.time = time;
-  state.packet = message.frame;
+  state.packet = message.frame + statistics_.uncounted;
   state.position = *session_.position;
   state.attitude = session_.attitude;
+  state.clamp = session_.clamp;
   state.head = session_.head;
   state.visibility = session_.visibility;
   state.weather = session_.weather();
@@ -248,15 +252,55 @@ std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram, Wir
   return finish(state, gap, silence);
 }
 
+/// Adds up what is told of the packets of a message that is used.
+void OneSender::notePackets(const cigi3::Message& message) {
+  statistics_.regionalWeather += static_cast<std::uint64_t>(message.regionalWeather);
+  statistics_.otherLayers += static_cast<std::uint64_t>(message.otherLayers);
+  statistics_.symbolPackets += static_cast<std::uint64_t>(message.symbolPackets);
+  statistics_.refusedPackets += static_cast<std::uint64_t>(message.refusedPackets);
+  if (message.refused) {
+    if (statistics_.firstRefusedReason.empty()) statistics_.firstRefusedReason = toString(*message.refused);
+    statistics_.newestRefused = toFinding(*message.refused, statistics_.from);
+  }
+  const auto addNew = [](std::vector<std::uint16_t>& list, const std::vector<std::uint16_t>& seen) {
+    for (const std::uint16_t number : seen)
+      if (list.size() < cigi3::kMostNamed && std::find(list.begin(), list.end(), number) == list.end())
+        list.push_back(number);
+  };
+  addNew(statistics_.otherEntities, message.otherEntities);
+  addNew(statistics_.views, message.views);
+  statistics_.view = choice_.view        ? choice_.view
+                     : session_.headView ? session_.headView
+                                         : session_.definedView;
+  for (const IgnoredPackets& each : message.ignored) {
+    const auto known = std::find_if(statistics_.ignored.begin(), statistics_.ignored.end(),
+                                    [&each](const IgnoredPackets& i) { return i.id == each.id; });
+    if (known == statistics_.ignored.end())
+      statistics_.ignored.push_back(each);
+    else
+      known->count += each.count;
+  }
+}
+
+void OneSender::takeQueries(std::vector<TerrainQuery>& queries) {
+  queries.insert(queries.end(), queries_.begin(), queries_.end());
+  queries_.clear();
+}
+
 std::optional<AircraftState> OneSender::withoutOwnship(const cigi3::Message& message) {
-  if (!message.otherEntity)
-    return unused("Entity Control", "entity 0, the ownship", "none so far, or it was destroyed");
+  const std::string own = std::to_string(choice_.entity);
+  if (!message.otherEntityAt)
+    return unused("Entity Control", "entity " + own + ", the own aircraft",
+                  "none so far, or it was destroyed");
   ++statistics_.notForUs;
-  PacketFault fault = *message.otherEntity;
-  if (message.otherEntities > 1)
-    fault.found += " and " + std::to_string(message.otherEntities - 1) + " others";
-  fault.found += " only";
-  statistics_.newestNotForUs = toFinding(fault, statistics_.from);
+  std::string seen;
+  for (const std::uint16_t entity : statistics_.otherEntities)
+    seen += (seen.empty() ? "" : ", ") + std::to_string(entity);
+  statistics_.newestNotForUs =
+      toFinding(PacketFault{*message.otherEntityAt, "entity", own + ", the own aircraft",
+                            "no entity " + own + "; seen: " + seen,
+                            "--entity, or host.entity of the preset, says which one is the own aircraft"},
+                statistics_.from);
   return std::nullopt;
 }
 

@@ -32,8 +32,7 @@ class HostClock {
 /// Decodes what one sender sends: what its datagrams add up to, and the health of its link.
 class OneSender {
  public:
-  OneSender(std::string from, HostProtocol wanted, const std::string& entity)
-      : wanted_(wanted), ownEntity_(entity) {
+  OneSender(std::string from, const HostChoice& choice) : choice_(choice), ownEntity_(choice.ofDis()) {
     statistics_.from = std::move(from);
   }
 
@@ -42,6 +41,8 @@ class OneSender {
   const HostStatistics& statistics() const { return statistics_; }
   const RateMeter& meter() const { return meter_; }
   const std::shared_ptr<const HostSymbols>& symbols() const { return session_.symbols; }
+  /// Moves the requests of the last datagram to the end of `queries`.
+  void takeQueries(std::vector<TerrainQuery>& queries);
   std::optional<std::uint32_t> lastFrame() const { return order_.last(); }
   ByteOrder byteOrder() const { return hostOrder_; }
 
@@ -79,13 +80,14 @@ class OneSender {
   std::optional<AircraftState> withoutOwnEntity(const Datagram& datagram, int entities);
   std::optional<AircraftState> finish(const AircraftState& state, double gapS, bool silence);
   std::optional<AircraftState> withoutOwnship(const cigi3::Message& message);
+  void notePackets(const cigi3::Message& message);
   /// Says why a host's datagram leads to no state; returns none.
   std::optional<AircraftState> unused(std::string what, std::string expected, std::string found);
   double gapTo(const Datagram& datagram) const {
     return statistics_.lastArrival > 0 ? datagram.arrival - statistics_.lastArrival : 0;
   }
 
-  HostProtocol wanted_;
+  HostChoice choice_;
   HostStatistics statistics_;
   RateMeter meter_;
   std::optional<AircraftState> lastState_;
@@ -95,6 +97,7 @@ class OneSender {
   double lastHeard_ = 0;  ///< arrival of the last datagram, good or bad
 
   cigi3::Session session_;
+  std::vector<TerrainQuery> queries_;  ///< of the last datagram
   FrameOrder order_;
   HostClock clock_{cigi3::kTickS};
   ByteOrder hostOrder_ = ByteOrder::big;

@@ -37,8 +37,7 @@ Attitude attitudeFrom(double heading, double pitch, double roll) {
 std::optional<PacketFault> parsePosition(std::span<const std::byte> bytes, AircraftState& state) {
   const std::size_t at = bytes.size() - kPositionSize;
   FieldReader read(bytes, ByteOrder::little);
-  const double longitude =
-      read.number<double>(at, "longitude", -limits::kLongitude, limits::kLongitude, "deg");
+  const double longitude = read.number<double>(at, "longitude", -limits::kTurn, limits::kTurn, "deg");
   const double latitude =
       read.number<double>(at + 8, "latitude", -limits::kLatitude, limits::kLatitude, "deg");
   const double height = read.number<double>(at + 16, "elevation", limits::kLowest, limits::kHighest, "m");
@@ -76,8 +75,7 @@ std::optional<PacketFault> parseRow(std::span<const std::byte> bytes, std::size_
   }
   constexpr double kFoot = unit::Foot::size;
   const double latitude = read.number<float>(first, "latitude", -limits::kLatitude, limits::kLatitude, "deg");
-  const double longitude =
-      read.number<float>(first + 4, "longitude", -limits::kLongitude, limits::kLongitude, "deg");
+  const double longitude = read.number<float>(first + 4, "longitude", -limits::kTurn, limits::kTurn, "deg");
   const double height =
       read.number<float>(first + 8, "altitude", limits::kLowest, limits::kHighest, "m", kFoot);
   session.position = {Degrees{limits::clampedLatitude(latitude)}, wrapped180(Degrees{longitude}),

@@ -12,6 +12,26 @@ inline constexpr std::array kHostRows{
          .help = "What the host speaks. Recognising it takes the first good packet; naming it refuses all "
                  "others.",
          .effect = Effect::host}),
+    row<&TuningParameters::host, &HostParameters::entity>(
+        {.key = "host.entity",
+         .label = "Own entity",
+         .help = "Number of the own aircraft among the host's entities. In CIGI it is 0, unless the host "
+                 "numbers otherwise.",
+         .hard = {0, 65535},
+         .usual = {0, 100},
+         .step = 1,
+         .effect = Effect::host,
+         .whole = true}),
+    row<&TuningParameters::host, &HostParameters::view>(
+        {.key = "host.view",
+         .label = "Own view",
+         .help = "Number of the view that is drawn if the host controls several (CIGI). -1 takes the first "
+                 "one it controls.",
+         .hard = {-1, 65535},
+         .usual = {-1, 20},
+         .step = 1,
+         .effect = Effect::host,
+         .whole = true}),
     row<&TuningParameters::host, &HostParameters::extrapolate>(
         {.key = "host.extrapolate",
          .label = "Extrapolate",

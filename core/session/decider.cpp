@@ -38,14 +38,26 @@ void Decider::restart() {
   *this = std::move(fresh);
 }
 
-/// Returns the height that the host sent, else one above the terrain, but only if the decision wants it: it
-/// costs a look-up.
+/// Looks up the terrain only if the decision wants it: that costs time.
 std::optional<Metres> Decider::groundBelow(const AircraftState& state) const {
-  if (state.aboveGround) return state.aboveGround;
   const CompiledPolicy* const policy = parameters_.policy();
   const bool asked = parameters_->altitude.reference == AltitudeReference::above_ground ||
                      (policy != nullptr && policy->asks(Signal::above_ground));
-  return asked ? heightOverTerrain(state) : std::nullopt;
+  const std::optional<Metres> height = asked ? heightOverTerrain(state) : std::nullopt;
+  return height ? height : state.aboveGround;
+}
+
+/// Notes where the host's height above ground is not the terrain's.
+void Decider::compareGround(std::optional<Metres> overTerrain) {
+  const AircraftState& state = input_.state;
+  if (!state.aboveGround || !overTerrain) return;
+  const Metres host = *state.aboveGround;
+  // Hosts send it as a float.
+  const double rounding = 1e-6 * std::abs(state.position.height.value());
+  const bool isAltitude = std::abs((host - state.position.height).value()) <= rounding;
+  const Metres bound = isAltitude ? GroundDoubt::kNoSea : GroundDoubt::kTooFar;
+  if (std::abs((host - *overTerrain).value()) < bound.value()) return;
+  doubt_ = GroundDoubt{doubt_ ? doubt_->states + 1 : 1, host, *overTerrain, isAltitude};
 }
 
 std::optional<Metres> Decider::heightOverTerrain(const AircraftState& state) const {
@@ -77,9 +89,13 @@ void Decider::trackSignals(const WeatherDecision& weather) {
   if (!replaysSignals(input_)) {
     if (parameters_.policy() == nullptr && !watched_) return;
     // Whoever watches sees the height before a rule asks for it.
-    tracker_.push(input_.state,
-                  watched_ && !input_.aboveGround ? heightOverTerrain(input_.state) : input_.aboveGround,
-                  velocityOf(input_.state), weather);
+    std::optional<Metres> height = input_.aboveGround;
+    if (watched_)
+      if (const auto overTerrain = heightOverTerrain(input_.state)) {
+        compareGround(overTerrain);
+        height = overTerrain;
+      }
+    tracker_.push(input_.state, height, velocityOf(input_.state), weather);
     if (parameters_.policy() != nullptr) input_.signalValues = tracker_.values();
   }
   if (watched_) watched_ = replaysSignals(input_) ? input_.signalValues : tracker_.values();
@@ -111,6 +127,7 @@ DecisionMemory Decider::next(FrameInput input) {
   const bool looked = std::exchange(looking_, false);
   if (looked) tracker_.restart();
   input_ = std::move(input);
+  if (!watched_) compareGround(input_.aboveGround);
   const DecisionMemory before = decideWith(memory_);
   if (looked) groundVelocity_.restart();
   groundVelocity_.push(input_.state);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "core/session/on_ground.h"
 #include "trimtab/host/motion.h"
 #include "trimtab/units/not_finite.h"
 
@@ -24,7 +25,7 @@ void Session::setGround(std::shared_ptr<const GroundHeights> ground) {
 void Session::receive(std::span<const ReceivedState> states) {
   for (const ReceivedState& received : states) {
     book_.packetDecoded(received.kernelTime, received.decodedTime);
-    AircraftState state = received.state;
+    AircraftState state = onGround(received.state, decider_.ground());
     head_.apply(state, received.kernelTime);
     flight_.link.follow(state, received.kernelTime, flight_.current ? &flight_.current->state : nullptr);
     flight_.link.setSymbols(received.symbols);
@@ -37,7 +38,7 @@ void Session::receive(std::span<const ReceivedState> states) {
 
 void Session::fly(const AircraftState& state, double now) {
   flight_.link.leave();
-  AircraftState flown = state;
+  AircraftState flown = onGround(state, decider_.ground());
   head_.apply(flown, now);
   decideNext(inputFor(flown, false), kNan);
 }

@@ -114,7 +114,7 @@ TEST_F(HostSymbolsPicture, changesWithTheDatagramsThatDefineControlAndDestroyThe
   auto destroyed = encodeCigiSymbols({{symbols.surfaces[0]}, {}});
   destroyed[4] |= std::byte{1};
   EXPECT_EQ(sent(destroyed), plain);
-  EXPECT_EQ(receiver_->statistics().refusedSymbols, 0u) << receiver_->statistics().firstSymbolReason;
+  EXPECT_EQ(receiver_->statistics().refusedPackets, 0u) << receiver_->statistics().firstRefusedReason;
 }
 
 TEST_F(HostSymbolsPicture, flashWithTheHostsClock) {

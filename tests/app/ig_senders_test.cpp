@@ -62,7 +62,7 @@ TEST(IgSenders, ofAnotherEntityAreToldWhichOneIsDrawn) {
     send(ig, socket, bytes);
   }
   EXPECT_TRUE(ig.says("are for someone else; the newest from " + name(socket) +
-                      ": byte 26: entity: expected 0, the ownship, found 1 only"))
+                      ": byte 26: entity: expected 0, the own aircraft, found no entity 0; seen: 1"))
       << ig.err();
   const auto summary = ended(ig);
   EXPECT_EQ(summary["host"]["received"], 20);

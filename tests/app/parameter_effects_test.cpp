@@ -164,7 +164,7 @@ class ParameterEffects : public test::SceneTest {
   /// The same packets over a link, with a silence at the end.
   Observed listen(const ValidatedParameters& parameters) {
     Session session(parameters);
-    HostDecoder decoder(parameters->host.protocol);
+    HostDecoder decoder(HostChoice(parameters->host));
     Observed seen;
     double now = 1000;
     for (const AircraftState& state : packets(over(0.5, 0.2, 0))) {
@@ -175,6 +175,7 @@ class ParameterEffects : public test::SceneTest {
     }
     seen["bad"] = std::to_string(decoder.statistics().bad);
     if (session.hasState()) {
+      seen["head"] = session.input().state.head ? "followed" : "ignored";
       seen["eye"] = std::to_string(session.eyeState(now + 0.02).position.latitude.value() * 1e6);
       for (int ms = 0; ms < 1000; ms += 50)
         seen["link " + std::to_string(ms)] = std::string(toText(session.linkState(now + ms * 1e-3)));

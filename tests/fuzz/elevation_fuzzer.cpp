@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<GByte> bytes(data, data + size);
   const char* const name = "/vsimem/fuzz";
   VSIFCloseL(VSIFileFromMemBuffer(name, bytes.data(), size, FALSE));
-  auto file = ElevationFile::open(name, {});
+  auto file = ElevationFile::open(name, {}, {});
   if (!file && file.findings().empty()) std::abort();
   if (file && (*file)->placeOn((*file)->posts())) {
     const PostGrid& posts = (*file)->posts();

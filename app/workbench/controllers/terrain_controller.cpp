@@ -93,7 +93,7 @@ void TerrainController::use(std::shared_ptr<const terrain::Database> database, c
                         .arg(info.lowest.value(), 0, 'f', 0)
                         .arg(info.highest.value(), 0, 'f', 0)
                         .arg(info.voidsFilled));
-  at_.feed.session().setGround(database_);
+  at_.feed.setGround(database_);
   at_.feed.session().setLoadIndex(scene::loadIndexOf(database_));
   at_.viewport.setTerrain(database_);
   trees_.setTrees(treesOf(*database_));

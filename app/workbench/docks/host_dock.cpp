@@ -27,7 +27,8 @@ namespace trimtab::workbench {
 namespace {
 
 constexpr int kHostRefreshMs = 250;
-const QString kEvery = QStringLiteral("0.0.0.0"), kOwn = QString::fromLatin1(link::kOwnMachine);
+const QString kEvery = QStringLiteral("0.0.0.0"), kEvery6 = QStringLiteral("::"),
+              kOwn = QString::fromLatin1(link::kOwnMachine);
 constexpr int kDefaultPort = 8004;
 constexpr auto kProtocolKey = "host.protocol";
 const QString kNone = QStringLiteral("–");
@@ -111,6 +112,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
       reply_(new QLineEdit(this)),
       found_(new QLabel(this)),
       connect_(new QPushButton(this)),
+      choice_(new HostChoicePanel(draft, this)),
       firstBad_(new QPlainTextEdit(this)) {
   auto* form = new QFormLayout;
   form->setVerticalSpacing(3);
@@ -125,7 +127,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
       "is another one than this machine's own"));
   showInterfaces();
   makeSender();
-  group_->setPlaceholderText(tr("224.0.0.0 to 239.255.255.255; empty: none"));
+  group_->setPlaceholderText(tr("224.0.0.0 to 239.255.255.255 or ff00::/8; empty: none"));
   group_->setText(QSettings().value(QStringLiteral("host/group")).toString());
   group_->setToolTip(tr("A multicast group that the host sends to. Several programs may listen to one"));
   group_->setAccessibleName(tr("Multicast group"));
@@ -183,6 +185,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
   column->addLayout(form);
+  column->addWidget(choice_);
   column->addWidget(firstBad_);
   column->addStretch(1);
   auto* scroll = views::scrollable(content, tr("Host"));
@@ -196,16 +199,24 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   connect(&feed_, &Feed::linkChanged, this, &HostDock::showLink);
   connect(protocol_, &QComboBox::activated, this,
           [this](int index) { draft_.setValue(kProtocolKey, ChoiceIndex{static_cast<std::size_t>(index)}); });
+  const auto connectAgain = [this] {
+    if (feed_.receiver() != nullptr && feed_.receiver()->statistics().protocol != WireProtocol::none)
+      connectHost();
+  };
+  connect(choice_, &HostChoicePanel::choiceChanged, this, connectAgain);
+  connect(choice_, &HostChoicePanel::senderChosen, this, [this](const QString& sender) {
+    setSender(sender);
+    connectHost();
+  });
   const auto showProtocol = [this] {
     const ParameterValue value = draft_.value(kProtocolKey);
     if (const auto* choice = std::get_if<ChoiceIndex>(&value))
       protocol_->setCurrentIndex(static_cast<int>(choice->index));
   };
-  connect(&draft_, &views::Draft::valueChanged, this, [this, showProtocol](const QString& key) {
+  connect(&draft_, &views::Draft::valueChanged, this, [showProtocol, connectAgain](const QString& key) {
     if (key != QLatin1String(kProtocolKey)) return;
     showProtocol();
-    if (feed_.receiver() != nullptr && feed_.receiver()->statistics().protocol != WireProtocol::none)
-      connectHost();
+    connectAgain();
   });
   showProtocol();
   showLink();
@@ -255,17 +266,18 @@ std::string HostDock::senderAsked() const {
   return (at >= 0 ? sender_->itemData(at).toString() : typed).toStdString();
 }
 
-/// Every IPv4 address of this machine, with its interface's name; the one chosen last stays chosen.
+/// Every address of this machine, with its interface's name; the one chosen last stays chosen.
 void HostDock::showInterfaces() {
   const QString chosen = interface_->count() > 0
                              ? interface_->currentData().toString()
                              : QSettings().value(QStringLiteral("host/listen-on"), kOwn).toString();
   interface_->clear();
   interface_->addItem(tr("every one (%1)").arg(kEvery), kEvery);
+  interface_->addItem(tr("every one, also of IPv6 (%1)").arg(kEvery6), kEvery6);
   for (const QNetworkInterface& each : QNetworkInterface::allInterfaces()) {
     if (!each.flags().testFlag(QNetworkInterface::IsUp)) continue;
     for (const QNetworkAddressEntry& entry : each.addressEntries())
-      if (entry.ip().protocol() == QAbstractSocket::IPv4Protocol)
+      if (!entry.ip().isNull())
         interface_->addItem(QStringLiteral("%1 (%2)").arg(each.humanReadableName(), entry.ip().toString()),
                             entry.ip().toString());
   }
@@ -286,8 +298,10 @@ void HostDock::lookUp() {
   found_->setText(tr("Looking up %1 …").arg(name));
   QHostInfo::lookupHost(name, this, [this, name](const QHostInfo& host) {
     if (name != foundName_) return;
-    for (const QHostAddress& address : host.addresses())
-      if (foundHost_.isNull() && address.protocol() == QAbstractSocket::IPv4Protocol) foundHost_ = address;
+    // As link::resolve: IPv4 comes first.
+    for (const auto protocol : {QAbstractSocket::IPv4Protocol, QAbstractSocket::IPv6Protocol})
+      for (const QHostAddress& address : host.addresses())
+        if (foundHost_.isNull() && address.protocol() == protocol) foundHost_ = address;
     found_->setText(foundHost_.isNull() ? tr("%1: %2").arg(name, host.errorString())
                                         : tr("%1 is %2").arg(name, foundHost_.toString()));
   });
@@ -299,7 +313,7 @@ Findings HostDock::connectHost() {
   settings.bindAddress = interface_->currentData().toString().toStdString();
   settings.sender = senderAsked();
   settings.group = group_->text().trimmed().toStdString();
-  settings.protocol = draft_.active()->host.protocol;
+  settings.choice = HostChoice(draft_.active()->host);
   if (const QString reply = reply_->text().trimmed(); !reply.isEmpty()) {
     const Result<link::Endpoint> endpoint = link::parseEndpoint(reply.toStdString());
     if (!endpoint) {
@@ -415,11 +429,14 @@ void HostDock::refresh() {
   weather_->setText(any ? tr("%1 for regions or entities, %2 for other layers")
                               .arg(number(host.regionalWeather), number(host.otherLayers))
                         : kNone);
-  const QString symbols =
-      host.refusedSymbols > 0 ? tr(", %1 symbol packets").arg(number(host.refusedSymbols)) : QString();
-  bad_->setText(!any ? kNone : (host.bad > 0 ? unused : number(0)) + symbols);
+  const QString packets =
+      host.refusedPackets > 0 ? tr(", %1 packets of messages").arg(number(host.refusedPackets)) : QString();
+  bad_->setText(!any ? kNone : (host.bad > 0 ? unused : number(0)) + packets);
+  const auto& doubt = session.groundDoubt();
+  choice_->showLink(host, senders, any ? feed_.receiver()->questions() : link::Questions{},
+                    any && doubt ? std::optional(toFinding(*doubt)) : std::nullopt);
   const QString dump = host.bad == 0
-                           ? QString::fromStdString(host.firstSymbolReason)
+                           ? QString::fromStdString(host.firstRefusedReason)
                            : QString::fromStdString(host.firstBadReason) + '\n' + hexDump(host.firstBadHex);
   firstBad_->setVisible(!dump.isEmpty());
   if (firstBad_->toPlainText() != dump) firstBad_->setPlainText(dump);

@@ -5,6 +5,7 @@
 #include <QTimer>
 #include <QWidget>
 
+#include "app/workbench/docks/host_choice.h"
 #include "app/workbench/jobs/feed.h"
 
 class QComboBox;
@@ -64,6 +65,7 @@ class HostDock : public QWidget {
   QString foundName_;       ///< the name that was looked up
   QHostAddress foundHost_;  ///< its address; null if there is none
   QPushButton* connect_;
+  HostChoicePanel* choice_;
   QLabel *state_, *detected_, *rate_, *jitter_, *loss_, *age_, *decoded_, *picture_, *counts_, *jumps_, *bad_,
       *weather_, *refused_;
   QPlainTextEdit* firstBad_;

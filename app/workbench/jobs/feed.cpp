@@ -41,7 +41,7 @@ Findings Feed::openHost(const HostSettings& settings) {
   options.bindAddress = settings.bindAddress;
   options.group = settings.group;
   options.sender = settings.sender;
-  options.protocol = settings.protocol;
+  options.choice = settings.choice;
   options.reply = settings.reply;
   options.wake = [this] {
     if (!wakePosted_.exchange(true)) QMetaObject::invokeMethod(this, &Feed::wake, Qt::QueuedConnection);
@@ -53,6 +53,7 @@ Findings Feed::openHost(const HostSettings& settings) {
   closeHost();
   pauseHere();
   receiver_ = std::move(opened).value();
+  receiver_->setGround(ground_);
   settings_ = settings;
   setSource(Source::camera);
   session_.restart();
@@ -73,6 +74,12 @@ void Feed::closeHost() {
   lastLink_ = LinkState::never;
   if (source_ == Source::host) setSource(Source::camera);
   emit linkChanged();
+}
+
+void Feed::setGround(std::shared_ptr<const GroundHeights> ground) {
+  ground_ = std::move(ground);
+  if (receiver_) receiver_->setGround(ground_);
+  session_.setGround(ground_);
 }
 
 void Feed::loadFlight(Flight flight) {
@@ -117,7 +124,8 @@ Findings Feed::playOverUdp(WireProtocol protocol, double speed, bool loop, doubl
   if (!receiver_)
     if (Findings refused = openHost(settings_); !refused.empty()) return refused;
   link::PlayOptions options;
-  const bool anywhere = settings_.bindAddress == "0.0.0.0" || !settings_.group.empty();
+  const bool anywhere =
+      settings_.bindAddress == "0.0.0.0" || settings_.bindAddress == "::" || !settings_.group.empty();
   options.to = {anywhere ? "127.0.0.1" : settings_.bindAddress, receiver_->port()};
   options.protocol = protocol;
   options.speed = speed;

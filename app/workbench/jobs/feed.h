@@ -36,7 +36,7 @@ class Feed : public QObject {
 
   struct HostSettings {
     std::uint16_t port = 0;
-    HostProtocol protocol = HostProtocol::automatic;
+    HostChoice choice{};  ///< what is followed of what the host says
     std::optional<link::Endpoint> reply;
     std::string bindAddress = link::kOwnMachine;  ///< of the interface to listen on
     std::string group{};                          ///< a multicast group to join there, or empty
@@ -47,6 +47,8 @@ class Feed : public QObject {
   Findings openHost(const HostSettings& settings);
   void closeHost();
   const link::Receiver* receiver() const { return receiver_.get(); }
+  /// Sets the terrain of the session, which also answers what a host asks.
+  void setGround(std::shared_ptr<const GroundHeights> ground);
 
   FlightPlayback& playback() { return playback_; }
   void loadFlight(Flight flight);
@@ -109,6 +111,7 @@ class Feed : public QObject {
   bool picturesDrawn_ = true;
   std::atomic<bool> wakePosted_ = false;
   HostSettings settings_;
+  std::shared_ptr<const GroundHeights> ground_;
   std::unique_ptr<link::FeedPlayer> udp_;
   std::unique_ptr<link::Receiver>
       receiver_;  ///< last member, destroyed first: its thread calls wake() until then

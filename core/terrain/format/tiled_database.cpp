@@ -32,6 +32,10 @@ class TiledDatabase final : public Database {
   const TerrainIndex& index() const override { return contents_.index; }
   void buildTile(std::uint32_t node, TileMesh& mesh) const override;
   std::optional<Metres> heightAt(Degrees latitude, Degrees longitude) const override;
+  Metres postDistance() const override {
+    constexpr double kMetresPerDegree = 111195;
+    return Metres{contents_.posts.stepLatitude * kMetresPerDegree};
+  }
   std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const override;
   std::shared_ptr<const StaticLodTerrain> staticLod() const override { return contents_.staticLod; }
   std::shared_ptr<const PatchTerrain> patches() const override { return contents_.patches; }

@@ -224,7 +224,7 @@ TEST(FeedCommand, sendsSymbolsWithEachPacket) {
     ASSERT_TRUE(state && decoder.symbols());
     EXPECT_EQ(*decoder.symbols(), exampleSymbols(state->time));
   }
-  EXPECT_EQ(decoder.statistics().refusedSymbols, 0U) << decoder.statistics().firstSymbolReason;
+  EXPECT_EQ(decoder.statistics().refusedPackets, 0U) << decoder.statistics().firstRefusedReason;
 
   const Ran fdm = run(play + " --protocol native-fdm --symbols");
   EXPECT_EQ(fdm.exitCode, 1);

@@ -19,9 +19,7 @@ class LinkWatchTest : public testing::Test {
   explicit LinkWatchTest(const link::ReceiverOptions& options)
       : receiver_(opened(options)), watch_(receiver_->port(), "127.0.0.1") {}
 
-  std::optional<std::string> look(double now) {
-    return watch_.look(receiver_->statistics(), receiver_->senders(), now);
-  }
+  std::optional<std::string> look(double now) { return watch_.look(*receiver_, now); }
   /// Sends so many copies and waits until they have come.
   void send(const UdpSocket& from, const std::vector<std::byte>& bytes, std::uint64_t times = 1) {
     for (std::uint64_t i = 0; i < times; ++i) {
@@ -72,8 +70,8 @@ TEST_F(LinkWatchTest, saysOnceWhereNothingArrives) {
                        "interface"));
   for (double now = 60; now < 300; now += 5) EXPECT_FALSE(look(now)) << now;
   link::LinkWatch everywhere(5501, "0.0.0.0");
-  EXPECT_FALSE(everywhere.look({}, {}, 0));
-  EXPECT_THAT(everywhere.look({}, {}, 10),
+  EXPECT_FALSE(everywhere.look({}, {}, {}, 0));
+  EXPECT_THAT(everywhere.look({}, {}, {}, 10),
               Optional(std::string("nothing has arrived on UDP port 5501 for 10 s")));
 }
 
@@ -82,10 +80,59 @@ TEST_F(LinkWatchTest, saysWhatIsForSomeoneElse) {
   auto entity = host(1);
   wire::put(entity, 26, ByteOrder::big, std::uint16_t{1});
   send(socket, entity);
+  EXPECT_THAT(
+      look(1),
+      Optional(port() + ": 1 of 1 datagrams are for someone else; the newest from " + name(socket) +
+               ": byte 26: entity: expected 0, the own aircraft, found no entity 0; seen: 1; --entity, "
+               "or host.entity of the preset, says which one is the own aircraft"));
+}
+
+TEST_F(LinkWatchTest, saysWhatOfAHostIsNotUsedEachOnce) {
+  UdpSocket socket;
+  const auto message = [](std::uint32_t frame) {
+    auto bytes = host(frame);
+    const auto add = [&bytes](std::uint8_t id, std::uint8_t size) {
+      bytes.resize(bytes.size() + size);
+      bytes[bytes.size() - size] = static_cast<std::byte>(id);
+      bytes[bytes.size() - size + 1] = static_cast<std::byte>(size);
+    };
+    add(8, 32);
+    add(24, 32);
+    add(21, 32);
+    bytes[bytes.size() - 32 + 5] = std::byte{1};  // a near plane, of 0 m
+    return bytes;
+  };
+  for (std::uint32_t frame = 1; frame <= 6; ++frame) send(socket, message(frame));
+  const std::string of = " of " + name(socket);
   EXPECT_THAT(look(1),
-              Optional(port() + ": 1 of 1 datagrams are for someone else; the newest from " + name(socket) +
-                       ": byte 26: entity: expected 0, the ownship, found 1 only; let the host send its "
-                       "own aircraft as entity 0"));
+              Optional(HasSubstr("6 packets left out, the rest of their messages is used; the newest "
+                                 "from " +
+                                 name(socket) + ": byte 144: near plane")));
+  // What grows does not hide what was never said.
+  for (std::uint32_t frame = 7; frame <= 30; ++frame) send(socket, message(frame));
+  std::string said;
+  for (int i = 1; i <= 2; ++i) said += look(1 + i * 10).value_or("nothing") + '\n';
+  EXPECT_THAT(said, HasSubstr("packets" + of + " of types that are not read: Rate Control (8) 30"));
+  EXPECT_THAT(said, HasSubstr("30 requests of heights or lines of sight stay without an answer; --reply"));
+  EXPECT_THAT(look(31), Optional(HasSubstr("30 packets left out")));
+  EXPECT_FALSE(look(41)) << "nothing new";
+}
+
+TEST_F(LinkWatchTest, saysThatAFrameNumberStandsStillAndWhichViewIsFollowed) {
+  UdpSocket socket;
+  AircraftState state;
+  state.position = {Degrees{36.6}, Degrees{128.3}, Metres{1500}};
+  state.head = Attitude{Degrees{10}, {}, {}};
+  auto bytes = encodeCigiHost(state, 0, 0);
+  const auto second = bytes;
+  bytes.insert(bytes.end(), second.end() - 32, second.end());
+  wire::put(bytes, bytes.size() - 30, ByteOrder::big, std::uint16_t{4});
+  send(socket, bytes, 20);
+  const std::string first = look(1).value_or(""), then = look(11).value_or("");
+  EXPECT_THAT(first + then,
+              HasSubstr("the frame number of " + name(socket) + " stands still; its messages are"));
+  EXPECT_THAT(first + then, HasSubstr("view 0 of " + name(socket) + " is followed, of others: 4; --view"));
+  EXPECT_FALSE(look(21));
 }
 
 TEST_F(LinkWatchTest, namesAStraySenderBesideTheHost) {
@@ -128,7 +175,7 @@ TEST_F(LinkWatchTest, saysWhyAHostsOwnDatagramsLeadToNothingNew) {
   send(socket, host(0));
   EXPECT_FALSE(look(0));
   for (double now = 1; now < 10; ++now) {
-    send(socket, host(0));
+    if (now < 5) send(socket, host(0));  // a host that goes on with one number is flown
     EXPECT_FALSE(look(now)) << now;
   }
   EXPECT_THAT(look(10),

@@ -105,7 +105,7 @@ TEST_P(Cigi4, faultsNameTheByteOfTheDatagramThatCame) {
   position(w, 0, 95);
   HostDecoder decoder;
   EXPECT_FALSE(feed(decoder, w.bytes, 1));
-  EXPECT_THAT(decoder.statistics().firstBadReason, HasSubstr("byte 64: latitude: expected -90"));
+  EXPECT_THAT(decoder.statistics().firstRefusedReason, HasSubstr("byte 64: latitude: expected -90"));
 
   WireWriter entity = message(1);
   position(entity, 6);
@@ -122,6 +122,18 @@ TEST_P(Cigi4, faultsNameTheByteOfTheDatagramThatCame) {
   EXPECT_EQ(third.statistics().truncated, 1U);
   EXPECT_THAT(third.statistics().firstBadReason,
               HasSubstr("byte 24: packet size: expected a multiple of 8 within"));
+}
+
+TEST_P(Cigi4, aPacketOfAnotherSizeCostsItselfAlone) {
+  WireWriter w = message(1);
+  w.begin(24).u16(0, 24).u16(2, 1);  // Entity Position has 48 bytes
+  position(w, 0);
+  HostDecoder decoder;
+  EXPECT_TRUE(feed(decoder, w.bytes, 1));
+  EXPECT_EQ(decoder.statistics().refusedPackets, 1U);
+  EXPECT_EQ(decoder.statistics().bad, 0U);
+  EXPECT_THAT(decoder.statistics().firstRefusedReason,
+              HasSubstr("byte 24: size of packet 1: expected 48, found 24"));
 }
 
 TEST_P(Cigi4, whatIsSentIsWhatTheTablesSay) {

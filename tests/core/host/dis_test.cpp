@@ -277,7 +277,9 @@ TEST(Dis, theOwnAircraftIsChosenByIdNumberOrMarking) {
   second.marking = "Cobra 7";
   second.position.latitude = Degrees{10};
   for (const char* wanted : {"17:2:6", "6", "COBRA 7"}) {
-    HostDecoder decoder(HostProtocol::automatic, wanted);
+    HostChoice choice;
+    choice.chooseEntity(wanted);
+    HostDecoder decoder(choice);
     EXPECT_FALSE(feed(decoder, pdu(first), 1)) << wanted;
     ASSERT_TRUE(decoder.statistics().newestNotForUs);
     EXPECT_THAT(
@@ -308,10 +310,12 @@ TEST(Dis, severalPdusInADatagramAreReadAndABadOneCostsItself) {
   wire::put(std::span(bytes), 48, ByteOrder::big, std::nan(""));
   const auto mine = pdu(own);
   bytes.insert(bytes.end(), mine.begin(), mine.end());
-  HostDecoder decoder(HostProtocol::dis, "5");
+  HostChoice fifth(HostProtocol::dis);
+  fifth.chooseEntity("5");
+  HostDecoder decoder(fifth);
   EXPECT_TRUE(feed(decoder, bytes, 1));
   wire::put(std::span(bytes), 144 + 64, ByteOrder::big, 1e6);
-  HostDecoder bad(HostProtocol::dis, "5");
+  HostDecoder bad(fifth);
   EXPECT_FALSE(feed(bad, bytes, 1));
   EXPECT_THAT(bad.statistics().firstBadReason, HasSubstr("byte 48: location x"));
 }

@@ -11,10 +11,6 @@
 namespace trimtab::test {
 namespace {
 
-bool mentions(const Findings& findings, const std::string& text) {
-  return toString(findings).find(text) != std::string::npos;
-}
-
 struct BadFlight {
   const char* file;
   const char* line;  ///< ":2" or empty

@@ -32,4 +32,9 @@ inline std::optional<AircraftState> feed(HostDecoder& decoder, const std::vector
   return decoder.accept({bytes, arrival, from});
 }
 
+/// Reports whether any of the findings says `text`.
+inline bool mentions(const Findings& findings, const std::string& text) {
+  return toString(findings).find(text) != std::string::npos;
+}
+
 }  // namespace trimtab::test

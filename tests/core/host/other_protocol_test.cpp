@@ -93,8 +93,7 @@ TEST(OtherProtocol, isCountedApartAndSaysWhatToDo) {
       {"DIS", [] { return altered(text(std::string("\x06\x01\x02\x02", 4)), 8, std::uint16_t{41}); },
        "byte 2: type of DIS PDU: expected 1 (Entity State), found 2"},
       {"another entity", [] { return entityOnly(1); },
-       "byte 26: entity: expected 0, the ownship, found 1 only; let the host send its own aircraft as entity "
-       "0"},
+       "byte 26: entity: expected 0, the own aircraft, found no entity 0; seen: 1; --entity, or host.entity"},
   };
   for (const SomeoneElses& c : cases) expectForSomeoneElse(c, c.make());
 }
@@ -103,13 +102,13 @@ TEST(OtherProtocol, isToldOfRealPrograms) {
   TRIMTAB_NEEDS_SHARED("cases/hosts/udp");
   const SomeoneElses cases[] = {
       {"cigi22.hex", {}, "CIGI major version: expected 3 or 4, found 2"},
-      {"cigi4_be.hex", {}, "byte 30: entity: expected 0, the ownship, found 256 only"},
-      {"cigi4_le.hex", {}, "byte 30: entity: expected 0, the ownship, found 1 only"},
+      {"cigi4_be.hex", {}, "byte 30: entity: expected 0, the own aircraft, found no entity 0; seen: 256; --entity"},
+      {"cigi4_le.hex", {}, "byte 30: entity: expected 0, the own aircraft, found no entity 0; seen: 1; --entity"},
       {"cigi_trillium_layout.hex", {}, "found 00 00, a vendor's own layout"},
       {"fdm_v25_552.hex", {}, "found native-fdm version 25, big-endian, in 552 bytes"},
       {"fdm_v24_little_endian.hex", {}, "found native-fdm version 24, little-endian, in 408 bytes"},
       {"gui_v8_paparazzi_little_endian.hex", {}, "found native-gui version 8, little-endian, in 112 bytes"},
-      {"cigi_entity_1_only_skybolt.hex", {}, "entity: expected 0, the ownship, found 1 only"},
+      {"cigi_entity_1_only_skybolt.hex", {}, "entity: expected 0, the own aircraft, found no entity 0; seen: 1; --entity"},
   };
   for (const SomeoneElses& c : cases) expectForSomeoneElse(c, shared(c.name));
 }
@@ -157,7 +156,7 @@ TEST(HostDecoder, saysWhyAHostsOwnDatagramsLeadToNoState) {
   Bytes control = encodeCigiHost(aState(), 1, 0);
   control.resize(24);
   feed(waiting, control, 1);
-  EXPECT_THAT(why(waiting), HasSubstr("Entity Control: expected entity 0, the ownship, found none"));
+  EXPECT_THAT(why(waiting), HasSubstr("Entity Control: expected entity 0, the own aircraft, found none"));
   EXPECT_EQ(waiting.statistics().notForUs, 0U);
   feed(waiting, encodeCigiHost(aState(), 2, 0), 1.02);
   EXPECT_EQ(why(waiting), "nothing") << "a state followed";

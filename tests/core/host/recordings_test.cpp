@@ -12,10 +12,6 @@ constexpr const char* kNativeFdm = "captures/fgfs-2020.3.16-native-fdm-v24-ufo-6
 constexpr const char* kCigi = "captures/ccl-3.3.3-minihost-dummyig-cigi33.pcap";
 constexpr const char* kKeflavik = "data/flight-fg-keflavik/reg_flight.csv";
 
-bool mentions(const Findings& findings, const std::string& text) {
-  return toString(findings).find(text) != std::string::npos;
-}
-
 TEST(RecordedNativeFdm, decodesWholeAndItsFieldsComeBack) {
   TRIMTAB_NEEDS_SHARED(kNativeFdm);
   const auto datagrams = readPcap(sharedDir() / kNativeFdm);

@@ -61,7 +61,7 @@ TEST_P(Symbols, comeBackAsTheyWereSent) {
   ASSERT_NE(decoder.symbols(), nullptr);
   EXPECT_EQ(*decoder.symbols(), sent);
   EXPECT_EQ(decoder.statistics().symbolPackets, 2 * sent.symbols.size() + sent.surfaces.size());
-  EXPECT_EQ(decoder.statistics().refusedSymbols, 0U) << decoder.statistics().firstSymbolReason;
+  EXPECT_EQ(decoder.statistics().refusedPackets, 0U) << decoder.statistics().firstRefusedReason;
 }
 
 TEST(SymbolStore, staysTheSameOneUntilSomethingChanges) {
@@ -125,7 +125,7 @@ TEST(SymbolStore, followsShortControls) {
   EXPECT_EQ(decoder.symbols()->symbol(9)->parent, 3);
   EXPECT_FALSE(control(0, 0, 0, 0, 0)->visible);
   EXPECT_EQ(control(2, 0, 0, 0, 0), nullptr) << "destroyed";
-  EXPECT_EQ(decoder.statistics().refusedSymbols, 0U) << decoder.statistics().firstSymbolReason;
+  EXPECT_EQ(decoder.statistics().refusedPackets, 0U) << decoder.statistics().firstRefusedReason;
 }
 
 TEST(SymbolStore, destroysChildrenWithTheirParentAndSymbolsWithTheirSurface) {
@@ -254,8 +254,8 @@ TEST(HostileSymbols, areCountedWithPlaceAndReasonAndCostTheirMessageNothing) {
     }
     EXPECT_TRUE(state) << "the aircraft flies on";
     EXPECT_EQ(s.bad, 0U) << s.firstBadReason;
-    EXPECT_GE(s.refusedSymbols, 1U);
-    EXPECT_EQ(s.firstSymbolReason.rfind(h.reason, 0), 0U) << s.firstSymbolReason;
+    EXPECT_GE(s.refusedPackets, 1U);
+    EXPECT_EQ(s.firstRefusedReason.rfind(h.reason, 0), 0U) << s.firstRefusedReason;
     if (decoder.symbols()) {
       EXPECT_TRUE(decoder.symbols()->symbols.empty() && decoder.symbols()->surfaces.empty());
     }
@@ -274,7 +274,7 @@ TEST(HostileSymbols, controlsWithNumbersThatNobodyMeansChangeNothing) {
       ++frame;
       feed(decoder, message(frame, with(control, offset, value)), 1 + frame * 0.01);
       EXPECT_EQ(decoder.symbols(), before) << offset << ' ' << value;
-      EXPECT_EQ(decoder.statistics().refusedSymbols, frame - 1);
+      EXPECT_EQ(decoder.statistics().refusedPackets, frame - 1);
     }
 }
 
@@ -291,7 +291,7 @@ TEST(HostileSymbols, neverAttachInACircle) {
        message(1, joined({packetsOf(symbol(1)), packetsOf(symbol(2)), packetsOf(symbol(3)), attach(1, 1),
                           attach(1, 2), attach(2, 3), attach(3, 1), attach(3, 9)})),
        1);
-  EXPECT_EQ(decoder.statistics().refusedSymbols, 3U) << "itself, its own descendant, and nothing";
+  EXPECT_EQ(decoder.statistics().refusedPackets, 3U) << "itself, its own descendant, and nothing";
   EXPECT_FALSE(decoder.symbols()->symbol(3)->attached);
   EXPECT_TRUE(decoder.symbols()->symbol(2)->attached);
 }
@@ -308,7 +308,7 @@ TEST(HostileSymbols, areNoMoreThanTheStoreHolds) {
   }
   EXPECT_EQ(decoder.symbols()->symbols.size(), HostSymbols::kMostSymbols);
   EXPECT_EQ(decoder.symbols()->surfaces.size(), HostSymbols::kMostSurfaces);
-  EXPECT_EQ(decoder.statistics().refusedSymbols,
+  EXPECT_EQ(decoder.statistics().refusedPackets,
             2 * (3000 - HostSymbols::kMostSymbols) + 300 - HostSymbols::kMostSurfaces);
 }
 

@@ -118,7 +118,7 @@ TEST(Session, anEditHoldsAtOnceForThePictureAndFromTheNextPacketOnForTheTrace) {
   EXPECT_DOUBLE_EQ(rows[1].decision.totalMembership, 0.85);
 }
 
-TEST(Session, asksTheTerrainOnlyWhereTheHostDoesNotTellAndTheDecisionWantsIt) {
+TEST(Session, asksTheTerrainWhereTheDecisionWantsItAndTheHostWhereTheTerrainKnowsNothing) {
   const auto aboveGround =
       with([](TuningParameters& p) { p.altitude.reference = AltitudeReference::above_ground; });
   struct Case {
@@ -129,7 +129,8 @@ TEST(Session, asksTheTerrainOnlyWhereTheHostDoesNotTellAndTheDecisionWantsIt) {
   };
   const Case cases[] = {
       {"sea level wants no ground", defaultParameters(), {}, 300, {}, 0},
-      {"the host tells", aboveGround, 700, 300, 700, 0},
+      {"both tell", aboveGround, 720, 300, 1000 - 300, 1},
+      {"the host alone tells", aboveGround, 720, {}, 720, 1},
       {"the terrain tells", aboveGround, {}, 300, 1000 - 300, 1},
       {"nobody knows", aboveGround, {}, {}, {}, 1},
   };

@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
   std::printf("%d\n", ntohs(here.sin_port));
   std::fflush(stdout);
 
-  trimtab::HostDecoder decoder((*parameters)->host.protocol);
+  trimtab::HostDecoder decoder{trimtab::HostChoice((*parameters)->host)};
   trimtab::Session session(*parameters);
   session.keepRows(true);
   std::byte bytes[65536];

@@ -44,6 +44,13 @@ struct Velocity {
   friend bool operator==(const Velocity&, const Velocity&) = default;
 };
 
+/// Says whether a host leaves an aircraft's height to the terrain (CIGI Entity Control, Ground/Ocean Clamp).
+enum class GroundClamp {
+  none,
+  level,     ///< the height counts from the ground; pitch and roll are the host's
+  conformal  ///< pitch and roll count from the slope of the ground as well
+};
+
 /// Holds what one packet, or one row of a flight, says about the aircraft.
 struct AircraftState {
   double time = 0;  ///< seconds on the host's clock; the arrival time if the host sends none
@@ -51,9 +58,10 @@ struct AircraftState {
       0;  ///< the host's frame number, else a running count; the same in two receivers of one host
   GeodeticPosition position;
   Attitude attitude;
-  std::optional<Metres> aboveGround;  ///< from the host; if unset, the terrain is asked
-  std::optional<Attitude> head;       ///< line of sight relative to the aircraft
-  std::optional<Metres> visibility;   ///< of the whole atmosphere
+  GroundClamp clamp = GroundClamp::none;  ///< a session puts such an aircraft on its terrain
+  std::optional<Metres> aboveGround;      ///< from the host; the terrain's counts where it is asked and knows
+  std::optional<Attitude> head;           ///< line of sight relative to the aircraft
+  std::optional<Metres> visibility;       ///< of the whole atmosphere
   std::optional<HostWeather> weather;
   std::optional<Wind> wind;
   std::optional<HostView> view;

@@ -12,6 +12,7 @@
 #include "trimtab/frame/frame.h"
 #include "trimtab/frame/host_symbols.h"
 #include "trimtab/host/byte_order.h"
+#include "trimtab/host/terrain_query.h"
 #include "trimtab/units/result.h"
 
 /// Decodes a host's datagrams to aircraft states. It sees bytes, addresses and times only; sockets are in
@@ -26,6 +27,33 @@ struct Datagram {
 
 enum class WireProtocol { none, native_fdm, cigi3, cigi4, dis, x_plane };
 
+/// What is followed of what a host says.
+struct HostChoice {
+  HostProtocol protocol = HostProtocol::automatic;
+  std::uint16_t entity = 0;  ///< the own aircraft of a CIGI host
+  /// The own aircraft of a DIS host: its id as "17:2:5", the last number of it, or its marking.
+  std::string disEntity;
+  std::optional<std::uint16_t> view;  ///< the view that is drawn; if unset, the first that the host controls
+
+  HostChoice(HostProtocol p = HostProtocol::automatic) : protocol(p) {}
+  /// As a preset says.
+  explicit HostChoice(const HostParameters& parameters);
+  /// Chooses the own aircraft as a person named it: by a number, or for a DIS host also by id or marking. An
+  /// empty name changes nothing.
+  void chooseEntity(const std::string& name);
+  /// Returns the own aircraft of a DIS host as `disEntity` does, or else the number of that of a CIGI host.
+  /// If it is empty, the first platform that comes is followed.
+  std::string ofDis() const;
+};
+
+/// CIGI packets of a type that is not read.
+struct IgnoredPackets {
+  std::uint8_t id = 0;
+  std::uint64_t count = 0;
+};
+/// Returns "Rate Control (8)" for a packet of CIGI 3, or "user-defined (210)".
+std::string cigiPacketName(std::uint8_t id);
+
 /// The health of one sender's link, as the Host dock shows it. Counters only grow, except `lost`, which a
 /// late packet lowers again, and `implausible`, which the second packet of a new count lowers.
 struct HostStatistics {
@@ -35,17 +63,20 @@ struct HostStatistics {
   std::uint64_t states = 0;    ///< decoded to a state
   std::uint64_t bad = 0;       ///< refused: damaged, or nothing that is known
   /// Undamaged, but for someone else: another protocol or version, an image generator's own message, or a
-  /// message of other entities while the ownship, entity 0, has not come.
+  /// message of other entities while the own aircraft has not come.
   std::uint64_t notForUs = 0;
   std::uint64_t alongside = 0;  ///< datagrams that came while another sender was followed
   std::uint64_t truncated =
       0;                       ///< CIGI messages whose tail was dropped at a packet of size 0 or past the end
   std::uint64_t notReady = 0;  ///< states below -1,000 ft: the simulator has not placed its aircraft yet
   std::uint64_t repeated = 0;  ///< with the same frame number again
+  /// Used although the frame number stood still: the host does not count, so that nobody can tell what is
+  /// lost.
+  std::uint64_t uncounted = 0;
   std::uint64_t reordered = 0;        ///< late: with an older frame number than one already seen; not decided
   std::uint64_t implausible = 0;      ///< with a frame number far from all others; not decided
   std::uint64_t restarts = 0;         ///< how often the host began to count frames anew
-  std::optional<std::uint64_t> lost;  ///< by frame numbers; unset if the protocol has none (native-fdm)
+  std::optional<std::uint64_t> lost;  ///< by frame numbers; unset if the host does not count (native-fdm)
   double rateHz = 0;                  ///< over the last second
   double jitterMs = 0;     ///< RFC 3550, 6.4.1, from the host's time stamps, else from even spacing
   double lastArrival = 0;  ///< of a good datagram; 0 before the first
@@ -63,10 +94,14 @@ struct HostStatistics {
   std::uint64_t regionalWeather = 0;  ///< CIGI Weather Control of a region or an entity, which is ignored
   std::uint64_t otherLayers =
       0;  ///< CIGI Weather Control of a layer other than rain and snow, which is ignored
-  std::uint64_t symbolPackets = 0;  ///< CIGI packets that defined or controlled symbols
-  std::uint64_t refusedSymbols =
-      0;  ///< CIGI symbol packets that were left out; the rest of their message counts
-  std::string firstSymbolReason;  ///< of the first one: byte offset, expected, found
+  std::uint64_t symbolPackets = 0;   ///< CIGI packets that defined or controlled symbols
+  std::uint64_t refusedPackets = 0;  ///< CIGI packets that were left out; the rest of their message counts
+  std::string firstRefusedReason;    ///< of the first one: byte offset, expected, found
+  std::optional<Finding> newestRefused;      ///< of the last one
+  std::vector<IgnoredPackets> ignored;       ///< CIGI packets that are not read, each type once
+  std::vector<std::uint16_t> otherEntities;  ///< the first few that the host moves beside the own aircraft
+  std::vector<std::uint16_t> views;          ///< the first few that the host controls
+  std::optional<std::uint16_t> view;         ///< the one that is followed; unset before any
   /// Of a DIS host: "17:2:5 VIPER1", the entity that is followed, and the first few others that it sends.
   std::string ownEntity, otherEntityNames;
   std::uint64_t silences = 0;  ///< gaps of more than two seconds between good datagrams
@@ -76,9 +111,7 @@ struct HostStatistics {
 /// time.
 class HostDecoder {
  public:
-  /// `entity` is the own aircraft among the entities of a DIS host: its id as "17:2:5", the last number of
-  /// it, or its marking. If it is empty, the first platform that comes is followed.
-  explicit HostDecoder(HostProtocol protocol = HostProtocol::automatic, std::string entity = {});
+  explicit HostDecoder(const HostChoice& choice = {});
   ~HostDecoder();
   HostDecoder(HostDecoder&&) noexcept;
   HostDecoder& operator=(HostDecoder&&) noexcept;
@@ -106,13 +139,15 @@ class HostDecoder {
   /// makes another object, so equal pointers mean equal symbols. A symbol lasts until the host destroys it or
   /// restarts.
   std::shared_ptr<const HostSymbols> symbols() const;
+  /// Moves what the last datagram asked about the terrain to the end of `queries`.
+  void takeQueries(std::vector<TerrainQuery>& queries);
   /// These return the frame number and byte order of the newest good datagram for a Start of Frame; nothing
   /// and big if it is not CIGI.
   std::optional<std::uint32_t> lastHostFrame() const;
   ByteOrder hostOrder() const;
   /// Returns the protocol of the newest good datagram; none before any.
   WireProtocol hostProtocol() const;
-  /// Forgets everything but what was asked for.
+  /// Forgets everything but the choice.
   void reset();
 
  private:

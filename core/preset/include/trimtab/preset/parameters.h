@@ -169,6 +169,8 @@ inline constexpr PrecipitationLook kSnowLook{.red = Ratio{0.95}, .green = Ratio{
 
 struct HostParameters {
   HostProtocol protocol = HostProtocol::automatic;
+  Ratio entity{0};                 ///< the own aircraft's number among the host's entities
+  Ratio view{-1};                  ///< the view that is drawn, of those the host controls; -1: the first seen
   bool extrapolate = true;         ///< moves the eye on between packets; decisions are never extrapolated
   Milliseconds silenceAfter{500};  ///< without a packet for so long the host is silent
 };

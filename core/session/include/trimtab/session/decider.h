@@ -7,6 +7,7 @@
 #include "trimtab/frame/ground_heights.h"
 #include "trimtab/host/ground_velocity.h"
 #include "trimtab/preset/table.h"
+#include "trimtab/session/ground_doubt.h"
 #include "trimtab/session/signal_tracker.h"
 
 namespace trimtab {
@@ -22,6 +23,8 @@ class Decider {
   void setParameters(const ValidatedParameters& parameters);
   /// Sets what is asked for the height of the ground. May be null.
   void setGround(std::shared_ptr<const GroundHeights> ground);
+  /// Returns it; null if there is none.
+  const GroundHeights* ground() const { return ground_.get(); }
   /// Derives the signals also while the preset has no policy.
   void watchSignals() { watched_.emplace(); }
 
@@ -54,18 +57,22 @@ class Decider {
   const DecisionMemory& memory() const { return memory_; }
   /// Returns the signals of the last decided state; unknown without a policy, unless they are watched.
   SignalValues signalValues() const { return watched_.value_or(input_.signalValues); }
+  /// Returns where the host's height above ground contradicts the terrain's; nullopt if it never did.
+  const std::optional<GroundDoubt>& groundDoubt() const { return doubt_; }
   SignalTracker& signalTracker() { return tracker_; }
   /// Returns the velocity of a state: the host's, or what follows from the states before.
   std::optional<Velocity> velocityOf(const AircraftState& state) const;
   /// Returns the height of the highest ground, if the decision wants it.
   std::optional<Metres> highestGround() const;
-  /// Returns the height above ground that the decision wants: the host's, or one above the terrain.
+  /// Returns the height above the terrain, if the decision wants it; what the host sent, where the terrain
+  /// knows nothing or nobody asks.
   std::optional<Metres> groundBelow(const AircraftState& state) const;
 
  private:
   DecisionMemory decideWith(DecisionMemory& memory);
   void decideInput(DecisionMemory& memory);
   void trackSignals(const WeatherDecision& weather);
+  void compareGround(std::optional<Metres> overTerrain);
   std::optional<Metres> heightOverTerrain(const AircraftState& state) const;
 
   ValidatedParameters parameters_;
@@ -78,6 +85,7 @@ class Decider {
   GroundVelocity groundVelocity_;
   SignalTracker tracker_;                ///< pushed only if the preset has a policy or somebody watches
   std::optional<SignalValues> watched_;  ///< if unset, nobody watches
+  std::optional<GroundDoubt> doubt_;
 };
 
 }  // namespace trimtab

@@ -31,8 +31,8 @@ class Session {
   /// new targets at once.
   void setParameters(const ValidatedParameters& parameters);
   const ValidatedParameters& parameters() const { return decider_.parameters(); }
-  /// Sets what is asked for the height of the ground if the host does not send the height above it. May be
-  /// null.
+  /// Sets what is asked for the height of the ground: for the height above it, and for aircraft that stand on
+  /// it. May be null.
   void setGround(std::shared_ptr<const GroundHeights> ground);
   /// Sets what the arbiter of the budget counts the triangles of coming views in; see FrameHold::setIndex.
   void setLoadIndex(std::shared_ptr<const LoadIndex> index) { hold_.setIndex(std::move(index)); }
@@ -76,6 +76,9 @@ class Session {
   double packetAge(double now) const { return flight_.link.packetAge(now); }
   std::uint64_t packets() const { return flight_.packets; }
   std::uint64_t jumps() const { return flight_.link.jumps(); }
+  /// Returns where the host's height above ground contradicts the terrain's; nullopt if it never did. The two
+  /// are compared only where something asks for the height.
+  const std::optional<GroundDoubt>& groundDoubt() const { return decider_.groundDoubt(); }
   const Latency& latency() const { return book_.latency(); }
 
   /// Returns what holds the budget: its cost model, and how its predictions come out.
