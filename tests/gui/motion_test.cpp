@@ -55,7 +55,7 @@ class Motion : public Bench {
 
 TEST_F(Motion, aSweepUnderTheFreeCameraFillsStacksLowersAndRaises) {
   workbench::raiseDock(panel());
-  panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
+  panel().sweepEdit().setText(QStringLiteral("180deg/1s/2s"));
   panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
   emit panel().sourceBox().activated(MotionPanel::sweep);
   ASSERT_TRUE(waitFor([this] { return session().decision().motion.lodScale == 4; }));
@@ -103,7 +103,7 @@ TEST_F(Motion, anEditLeavesTheRateOfTheHeadInEveryFrame) {
 TEST_F(Motion, aSweepIsRecordedAndFlownAgainWithItsLineOfSight) {
   auto& budget = *w().findChild<views::BudgetPanel*>();
   workbench::raiseDock(panel());
-  panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
+  panel().sweepEdit().setText(QStringLiteral("180deg/1s/2s"));
   panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
   emit panel().sourceBox().activated(MotionPanel::sweep);
   ASSERT_TRUE(w().controllers().trace->start(file_));
@@ -130,7 +130,7 @@ TEST_F(Motion, theDockBudgetSaysWhatHeldTheFrameAndWhatEachLeverGave) {
   w().workspaces().show(1);
   w().workspaces().reset();
   w().dock(QStringLiteral("budget"))->raise();
-  panel().sweepEdit().setText(QStringLiteral("180deg/1s/0.5s"));
+  panel().sweepEdit().setText(QStringLiteral("180deg/1s/2s"));
   panel().sourceBox().setCurrentIndex(MotionPanel::sweep);
   emit panel().sourceBox().activated(MotionPanel::sweep);
   const auto flies = [&](std::uint64_t images) {

@@ -195,6 +195,21 @@ TEST(Session, aHeightNobodyKnewStaysUnknownOnReplay) {
   EXPECT_EQ(replayed.decision().reason, SchemeReason::altitude_unknown);
 }
 
+TEST(Session, believesAHostThatPromisesADeadReckoningForItsWholeHeartbeat) {
+  Session session(defaultParameters());  // silent after 500 ms
+  AircraftState promised = stateAt(1, 5000, 0);
+  promised.deadReckoning = DeadReckoning{};
+  session.receive(std::vector{packet(promised)});
+  EXPECT_EQ(session.linkState(1012.9), LinkState::live) << "11.9 s later: DIS gives a host up after 12";
+  EXPECT_EQ(session.linkState(1013.1), LinkState::silent);
+  // So six seconds without a packet are no silence, after which 3 km would be a jump.
+  AircraftState far = promised;
+  far.time = 7;
+  far.position.latitude = Degrees{far.position.latitude.value() + 0.027};
+  session.receive(std::vector{packet(far)});
+  EXPECT_EQ(session.jumps(), 0U);
+}
+
 TEST(Session, tellsWhetherTheHostIsThere) {
   Session session(defaultParameters());  // silent after 500 ms
   EXPECT_EQ(session.linkState(5), LinkState::never);
