@@ -104,7 +104,7 @@ TEST_F(Observer, aHostWhoseDatagramsLeadToNothingIsToldWhyInTheHostDock) {
   const struct {
     std::vector<std::byte> bytes;
     const char* says;
-  } hosts[] = {{std::vector<std::byte>(72, std::byte{0x55}), "72 bytes of neither"}, {other, "entity"}};
+  } hosts[] = {{std::vector<std::byte>(72, std::byte{0x55}), "72 bytes of none of them"}, {other, "entity"}};
   w().dock("host")->show();
   w().dock("host")->raise();
   ASSERT_TRUE(comesToFront("host"));
