@@ -124,6 +124,11 @@ TEST_F(Observer, aHostWhoseDatagramsLeadToNothingIsToldWhyInTheHostDock) {
         waitFor([&] { return says("Link").contains("25") && says("Link").contains(host.says); }, 5000))
         << says("Link").toStdString();
     EXPECT_FALSE(says("Link").contains('\n')) << "one line";
+    // The whole text is seen, however narrow the dock is.
+    for (const QLabel* label : w().dock("host")->findChildren<QLabel*>())
+      if (label->accessibleName() == "Link") {
+        EXPECT_TRUE(waitFor([&] { return label->height() >= label->heightForWidth(label->width()); }));
+      }
     if (const QString shots = qEnvironmentVariable("TRIMTAB_SHOTS"); !shots.isEmpty())
       w().grab().save(shots + "/host-" + QString::number(host.bytes.size()) + ".png");
     w().feed().closeHost();
