@@ -17,7 +17,7 @@ Result<Gate> Gate::open(const std::string& allowed, const std::optional<Address>
   gate.senders_.allowed = allowed;
   gate.group_ = group;
   if (allowed == kAnyone || allowed == kFirst) return gate;
-  // One host among several of a machine is told by its port: 10.0.0.5:5500, [::1]:5500.
+  // A port after the address, as in 10.0.0.5:5500 or [::1]:5500, names one of several hosts on that machine.
   const bool isAddress6 = allowed.find(':') != allowed.rfind(':') && allowed.front() != '[';
   gate.portMatters_ = !isAddress6 && allowed.find(':') != std::string::npos;
   Endpoint asked{allowed, 0};

@@ -4,7 +4,7 @@ namespace trimtab::link {
 namespace {
 
 /// More questions at once are dropped and counted; at 60 Hz they would wait for seconds.
-constexpr std::size_t kMostWaiting = 4096, kMostRepeated = 1024;
+constexpr std::size_t kMostWaiting = 4096;
 /// What one frame of Ethernet holds beside the headers of IP and UDP.
 constexpr std::size_t kMostBytes = 1472;
 
@@ -43,7 +43,7 @@ void TerrainDesk::ask(const std::vector<TerrainQuery>& queries, bool mayAnswer) 
       const Key key{query.kind, query.id};
       if (query.everyFrame == 0)
         repeated_.erase(key);
-      else if (repeated_.size() < kMostRepeated || repeated_.contains(key))
+      else if (repeated_.size() < kMostWaiting || repeated_.contains(key))
         repeated_[key] = {query, igFrame_ + query.everyFrame};
       queue(query);
     }

@@ -252,7 +252,7 @@ std::optional<AircraftState> OneSender::acceptCigi(const Datagram& datagram, Wir
   return finish(state, gap, silence);
 }
 
-/// Adds up what is told of the packets of a message that is used.
+/// Adds a message's packets to the counters and lists of the statistics.
 void OneSender::notePackets(const cigi3::Message& message) {
   statistics_.regionalWeather += static_cast<std::uint64_t>(message.regionalWeather);
   statistics_.otherLayers += static_cast<std::uint64_t>(message.otherLayers);

@@ -230,7 +230,8 @@ class File final : public GroundImage {
   }
 
  private:
-  /// Of a folder of images, more than systems let a program have open are opened again when they are needed.
+  /// A folder may hold more images than a program may have open at once. So many stay open; the others are
+  /// opened anew whenever they are needed.
   static constexpr std::size_t kMostOpen = 128;
 
   void giveBack(std::unique_ptr<Picture> picture) const {

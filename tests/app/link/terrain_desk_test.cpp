@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "app/link/terrain_desk.h"
 #include "link_support.h"
 #include "udp_socket.h"
 
@@ -29,6 +30,15 @@ std::vector<std::byte> heightRequest(std::uint16_t number, std::uint8_t everyFra
   wire::put(bytes, 8, order, 40.0);
   wire::put(bytes, 16, order, 9.0);
   return bytes;
+}
+
+/// Nobody takes the answers: what cannot wait is dropped and counted, so that memory has a bound.
+TEST(TerrainDesk, holdsNoMoreThanItMay) {
+  link::TerrainDesk desk;
+  constexpr std::size_t kAsked = 10000;
+  desk.ask(std::vector<TerrainQuery>(kAsked), true);
+  EXPECT_EQ(desk.questions().asked, kAsked);
+  EXPECT_GT(desk.questions().dropped, kAsked / 2);
 }
 
 class TerrainDeskTest : public testing::TestWithParam<ByteOrder> {

@@ -27,7 +27,7 @@ struct Datagram {
 
 enum class WireProtocol { none, native_fdm, cigi3, cigi4, dis, x_plane };
 
-/// What is followed of what a host says.
+/// Chooses which protocol, which aircraft and which view of a host are used; the rest is passed over.
 struct HostChoice {
   HostProtocol protocol = HostProtocol::automatic;
   std::uint16_t entity = 0;  ///< the own aircraft of a CIGI host
@@ -102,7 +102,7 @@ struct HostStatistics {
   std::vector<std::uint16_t> otherEntities;  ///< the first few that the host moves beside the own aircraft
   std::vector<std::uint16_t> views;          ///< the first few that the host controls
   std::optional<std::uint16_t> view;         ///< the one that is followed; unset before any
-  /// Of a DIS host: "17:2:5 VIPER1", the entity that is followed, and the first few others that it sends.
+  /// The aircraft of a DIS host that is followed, as "17:2:5 VIPER1", and the first few others that it sends.
   std::string ownEntity, otherEntityNames;
   std::uint64_t silences = 0;  ///< gaps of more than two seconds between good datagrams
 };

@@ -11,8 +11,9 @@
 
 namespace trimtab {
 
-/// Books what each image shows and costs: the rows of the trace, latencies, and the cost that the next
-/// decision is told. Images are requested and finished in turns. Times are seconds of CLOCK_REALTIME.
+/// Keeps the books of the images: the rows of the trace that each image shows, the latencies of the packets
+/// in it, and what it cost, which the next decision uses. Each image is requested, then finished, before the
+/// next one is requested. Times are seconds of CLOCK_REALTIME.
 class FrameBook {
  public:
   /// Begins anew, but keeps all rows, as complete ones.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "limits.h"
+#include "core/host/limits.h"
 
 namespace trimtab::cigi3 {
 namespace {
