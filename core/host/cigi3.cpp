@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
-#include "core/host/terrain_query/terrain_query_packets.h"
 #include "limits.h"
 #include "symbol_packets.h"
+#include "terrain_query_packets.h"
 
 namespace trimtab::cigi3 {
 namespace {

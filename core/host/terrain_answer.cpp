@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/host/packet_writer.h"
+#include "packet_writer.h"
 #include "trimtab/host/terrain_query.h"
 
 namespace trimtab {

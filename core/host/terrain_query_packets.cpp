@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/host/limits.h"
+#include "limits.h"
 
 namespace trimtab::cigi3 {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/host/cigi3.h"
+#include "cigi3.h"
 
 namespace trimtab::cigi3 {
 
