@@ -96,7 +96,7 @@ Horizon::Outline Horizon::outlineOf(std::uint32_t n) const {
   o.beside = besideOf(o.off, std::max(std::abs(o.top), std::abs(b.minZ + from[2])), away);
   o.tile = n;
   o.ring = static_cast<std::uint16_t>(ringOf(away - tile.above));
-  if (!tile.mayOcclude) return o;
+  if (!tile.mayOcclude || (!tile.relief && !tile.mesh)) return o;
   o.lines = -1;
   if (!tile.relief) return o;
   const TileRelief& lines = *tile.relief;
@@ -176,7 +176,10 @@ void Horizon::test(const Outline& outline) {
   if (hidden && !isPrismHidden(outline)) {
     const HorizonTile& tile = tiles_[outline.tile];
     offset_ = fromEye(eye_, tile.surface()->origin);
-    hidden = tile.relief ? isHidden(*tile.relief) : isHidden(*tile.mesh);
+    if (tile.relief)
+      hidden = isHidden(*tile.relief);
+    else
+      hidden = tile.mesh && isHidden(*tile.mesh);
   }
   if (hidden) {
     // Its lines cannot stand out above what hides it either.

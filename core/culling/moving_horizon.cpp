@@ -38,6 +38,7 @@ void MovingHorizon::clear() {
     build.cut.clear();
   }
   moving_ = false;
+  hiddenBoxes_ = {};
 }
 
 void MovingHorizon::restart() {
@@ -52,8 +53,17 @@ ValidityRegion MovingHorizon::regionAhead(Vec3 eye, double firstFrame, double la
               kTurnShare * 0.5 * lastFrame * lastFrame * length(turn_)};
 }
 
+/// Returns what the build in use proves of the tiles that it was built for, and keeps what it proves of boxes.
+std::span<const std::uint8_t> MovingHorizon::verdictsOfBuild() {
+  const Build& build = builds_[active_];
+  const std::span<const std::uint8_t> all = build.horizon.hidden();
+  hiddenBoxes_ = all.subspan(build.cut.size());
+  return all.first(build.cut.size());
+}
+
 std::span<const std::uint8_t> MovingHorizon::verdicts(const Frame& frame) {
-  if (!isCarried_) return builds_[active_].horizon.hidden();
+  const std::span<const std::uint8_t> ofBuild = verdictsOfBuild();
+  if (!isCarried_) return ofBuild;
   ++carried_;
   return std::span(verdicts_).first(frame.tiles.size());
 }
@@ -62,6 +72,7 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
                                                     const Fill& fill) {
   if (!horizon::isPlace(frame.eye)) {
     moving_ = false;
+    hiddenBoxes_ = {};
     verdicts_.assign(frame.tiles.size(), 0);
     carriedBy_ = nullptr;
     return verdicts_;
@@ -85,11 +96,11 @@ std::span<const std::uint8_t> MovingHorizon::hidden(const Frame& frame, const Su
     if (frame.sameHorizon && build.there && build.cutNumber == frame.cut && build.rule == frame.rule &&
         build.settings == frame.settings && last.from == region.from && last.to == region.to &&
         last.radius == 0)
-      return build.horizon.hidden();
+      return verdictsOfBuild();
     begin(build, region, frame, tree, fill);
     build.horizon.step(std::numeric_limits<std::size_t>::max() / 2);
     ++fromScratch_;
-    return build.horizon.hidden();
+    return verdictsOfBuild();
   }
 
   // The newer horizon is used as soon as it is valid.
@@ -150,6 +161,7 @@ void MovingHorizon::begin(Build& build, const ValidityRegion& region, const Fram
   build.tiles.clear();
   fill(build.tiles);
   build.tiles.resize(frame.tiles.size());
+  build.tiles.insert(build.tiles.end(), frame.boxes.begin(), frame.boxes.end());
   build.cut.assign(frame.tiles.begin(), frame.tiles.end());
   build.cutNumber = frame.cut;
   build.rule = frame.rule;

@@ -10,6 +10,7 @@
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/guard_band.h"
 #include "core/scene/gl/stage_clock.h"
+#include "core/scene/objects/object_drawer.h"
 #include "core/scene/passes/blur_pass.h"
 #include "core/scene/passes/lines.h"
 #include "core/scene/passes/node_pass.h"
@@ -44,6 +45,7 @@ struct Renderer::Impl {
   TileDrawer tiles;
   PatchDrawer patches;
   TreeDrawer trees;
+  ObjectDrawer objects;
   TerrainDrawer* terrain = nullptr;  ///< that drew the last image; null: no terrain
   FrameCounters counters;            ///< since this renderer was made
 
@@ -128,8 +130,10 @@ FrameResult Renderer::Impl::prepare(const FrameRequest& r, SceneView& view) {
   terrain = view.form ? drawerOf(*view.form) : nullptr;
   lines.clear();
   if (terrain) {
-    PreparedTerrain prepared =
-        terrain->prepare({r, view.eye, view.shape, view.guardBand, gl->clock, report.software});
+    const FrameInProgress frame{r, view.eye, view.shape, view.guardBand, gl->clock, report.software};
+    PreparedTerrain prepared = terrain->prepare(frame);
+    objects.prepare(frame, prepared.hiddenCells);
+    result.objects = objects.frame();
     static_cast<OcclusionResult&>(result) = std::move(prepared.occlusion);
     result.paging = prepared.paging;
     result.patches = terrain == &patches;
@@ -198,6 +202,9 @@ constexpr FramePass kPasses[] = {
      [](const DrawnFrame& f) {
        f.renderer.drawForm(f.view, SceneShaders::tiles, false, &TerrainDrawer::draw);
      }},
+    {"objects", PassTarget::scene, nullptr,
+     [](const DrawnFrame& f) { return f.view.form && !f.view.treePicture && f.renderer.objects.drawsAny(); },
+     [](const DrawnFrame& f) { f.renderer.objects.draw(f.renderer.gl->programs, false); }},
     {"tree picture", PassTarget::scene, nullptr, [](const DrawnFrame& f) { return f.view.treePicture; },
      [](const DrawnFrame& f) {
        f.renderer.trees.drawPicture(f.renderer.gl->programs.use(SceneShaders::tree_picture));
@@ -206,6 +213,7 @@ constexpr FramePass kPasses[] = {
      [](const DrawnFrame& f) { return f.view.form && !f.view.treePicture && f.view.wireframe; },
      [](const DrawnFrame& f) {
        f.renderer.drawForm(f.view, SceneShaders::tiles, true, &TerrainDrawer::drawWire);
+       if (f.renderer.objects.drawsAny()) f.renderer.objects.draw(f.renderer.gl->programs, true);
      }},
     {"lines", PassTarget::scene, nullptr, [](const DrawnFrame& f) { return f.view.lines; },
      [](const DrawnFrame& f) {
@@ -347,6 +355,7 @@ GlReport Renderer::initialize() {
   if (impl_->report.usable) {
     impl_->gl = std::make_unique<Impl::Gl>(impl_->report.software);
     for (TerrainDrawer* form : impl_->forms()) form->initialize();
+    impl_->objects.initialize();
   }
   return impl_->report;
 }
@@ -356,6 +365,7 @@ void Renderer::release() {
   impl_->lastView = impl_->lastScene = kNoImage;
   impl_->terrain = nullptr;
   for (TerrainDrawer* form : impl_->forms()) form->release();
+  impl_->objects.release();
   impl_->gl.reset();
 }
 
@@ -364,6 +374,7 @@ void Renderer::setTerrain(std::shared_ptr<const terrain::Database> database) {
   impl_->terrain = nullptr;
   impl_->database = std::move(database);
   for (TerrainDrawer* form : impl_->forms()) form->setTerrain(impl_->database);
+  impl_->objects.setTerrain(impl_->database);
 }
 
 FrameResult Renderer::draw(const FrameRequest& request, unsigned fbo) {

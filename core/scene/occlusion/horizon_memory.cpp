@@ -6,6 +6,12 @@
 
 namespace trimtab::scene {
 
+void OcclusionGround::setObjects(const ObjectIndex* objects) {
+  boxes_.clear();
+  reliefs_ = objects ? reliefsOfCells(*objects) : std::vector<Relief>{};
+  for (const Relief& relief : reliefs_) boxes_.push_back({.box = &relief});
+}
+
 int HorizonMemory::columnsFor(int resolutionWidthPx) {
   return std::clamp(2 * resolutionWidthPx, Horizon::kLeastColumns, Horizon::kMostColumns);
 }
@@ -48,14 +54,15 @@ HorizonMemory::Result HorizonMemory::find(OcclusionGround& ground, Vec3 eye,
                                           const Horizon::Settings& settings, const Skips& skips, bool alone) {
   const Key key{eye, ground.cutNumber(), settings};
   const bool samePlace = key_ == key;
-  if (!samePlace && skips.littleHidden && hidLittleNear(key)) return {.hidden = {}, .leftOut = true};
+  if (!samePlace && skips.littleHidden && hidLittleNear(key))
+    return {.hidden = {}, .hiddenBoxes = {}, .leftOut = true};
   const std::size_t missing = ground.makeSurfaces(eye), nodes = ground.cut().tiles.size();
   if (!ground.isGraph()) {
     if (missing == 0) {
       clear();
       ground.forgetOthers();
     }
-    return {.hidden = {}, .noGraph = true};
+    return {.hidden = {}, .hiddenBoxes = {}, .noGraph = true};
   }
   // Surfaces made since the last horizon enter the next one, and an eye that moves begins one soon. For an
   // eye at rest one is built when twice as many surfaces are there, or half as many are missing, or none is.
@@ -70,6 +77,7 @@ HorizonMemory::Result HorizonMemory::find(OcclusionGround& ground, Vec3 eye,
   frame.cut = key.cut.cut;
   frame.rule = key.cut.rule;
   frame.tiles = ground.cut().tiles;
+  frame.boxes = ground.boxes();
   frame.errorOverDistance = key.cut.errorOverDistance;
   frame.settings = settings;
   frame.sameHorizon = skips.sameHorizon;
@@ -85,11 +93,18 @@ HorizonMemory::Result HorizonMemory::find(OcclusionGround& ground, Vec3 eye,
   const bool atOnce = moving_.fromScratch() != scratch;
   number_ += atOnce || before != &horizon();
   if (!samePlace || grown) {
-    const auto count = static_cast<std::size_t>(std::count(hidden.begin(), hidden.end(), std::uint8_t{1}));
-    hidLittle_ = isLittle(count, hidden.size()) && !SurfaceShare::isMany(missingThen_, nodes);
+    const auto isLittleOf = [](std::span<const std::uint8_t> flags) {
+      const auto count = std::count(flags.begin(), flags.end(), std::uint8_t{1});
+      return flags.empty() || isLittle(static_cast<std::size_t>(count), flags.size());
+    };
+    hidLittle_ =
+        isLittleOf(hidden) && isLittleOf(moving_.hiddenBoxes()) && !SurfaceShare::isMany(missingThen_, nodes);
   }
   key_ = key;
-  return {.hidden = hidden, .moved = !samePlace && !atOnce, .built = moving_.built() - built};
+  return {.hidden = hidden,
+          .hiddenBoxes = moving_.hiddenBoxes(),
+          .moved = !samePlace && !atOnce,
+          .built = moving_.built() - built};
 }
 
 }  // namespace trimtab::scene

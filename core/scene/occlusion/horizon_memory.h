@@ -20,6 +20,7 @@ class HorizonMemory {
     /// One flag per tile of the cut, in its order: 1 if it is proven hidden, whatever the view direction.
     /// Empty if the horizon was left out or cannot be built. Valid until the next call.
     std::span<const std::uint8_t> hidden;
+    std::span<const std::uint8_t> hiddenBoxes;  ///< likewise, one per box of the ground
     bool noGraph = false;     ///< no horizon can be built, because a place may have two heights
     bool leftOut = false;     ///< not looked for, because near here a horizon hid next to nothing
     bool moved = false;       ///< a horizon that was built for an earlier eye position was used

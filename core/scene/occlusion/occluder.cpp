@@ -108,10 +108,10 @@ std::size_t onRing(int i) {
 }
 
 void makeParts(const terrain::TileMesh& mesh, TileOccluder& occluder) {
-  constexpr int kPartCells = kCells / kPartsPerSide;
+  constexpr int kCellsASide = kCells / kPartsPerSide;
   for (int part = 0; part < kParts; ++part) {
-    const int x0 = part % kPartsPerSide * kPartCells, y0 = part / kPartsPerSide * kPartCells;
-    const Box b = boxOfCells(mesh, x0, y0, kPartCells);
+    const int x0 = part % kPartsPerSide * kCellsASide, y0 = part / kPartsPerSide * kCellsASide;
+    const Box b = boxOfCells(mesh, x0, y0, kCellsASide);
     occluder.parts[static_cast<std::size_t>(part)] = {{b.minX, b.minY, b.minZ, 0},
                                                       {b.maxX, b.maxY, b.maxZ, 0}};
   }

@@ -8,6 +8,7 @@
 #include "core/scene/surface/surfaces_in_use.h"
 #include "trimtab/culling/horizon.h"
 #include "trimtab/culling/select.h"
+#include "trimtab/culling/select_objects.h"
 #include "trimtab/culling/surface_tree.h"
 #include "trimtab/scene/distance_image.h"
 
@@ -63,8 +64,15 @@ class OcclusionGround {
   /// Returns the limit on surfaces made per frame.
   SurfaceShare& share() { return share_; }
 
+  /// Starts with what stands on this ground, or with nothing if it is null: a box per cell of the objects.
+  void setObjects(const ObjectIndex* objects);
+  /// Returns what else may be hidden: one box per cell.
+  std::span<const HorizonTile> boxes() const { return boxes_; }
+
  private:
   SurfaceShare share_;
+  std::vector<Relief> reliefs_;     ///< of the cells
+  std::vector<HorizonTile> boxes_;  ///< one for each of them
 };
 
 }  // namespace trimtab::scene

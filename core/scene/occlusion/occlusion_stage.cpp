@@ -48,7 +48,7 @@ void OcclusionStage::clear() {
   choice_ = {};
   chosen_ = false;
   serves_.reset();
-  hidden_ = {};
+  hidden_ = hiddenBoxes_ = {};
   mapHid_ = false;
   visibleKey_.reset();
   barren_.reset();
@@ -69,7 +69,7 @@ void OcclusionStage::plant(const Defects& defects) {
 
 void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps) {
   serves_.reset();
-  hidden_ = {};
+  hidden_ = hiddenBoxes_ = {};
   chosen_ = false;
   eye_ = eye;
   view_ = request.view;
@@ -100,6 +100,7 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool
                     .whole = request.wholeHorizon},
                    request.skips, alone);
   hidden_ = found.hidden;
+  hiddenBoxes_ = found.hiddenBoxes;
   counters_.horizonsBuilt = found.built;
   counters_.horizonsMoved = found.moved;
   counters_.horizonsLeftOut = found.leftOut;
@@ -149,7 +150,7 @@ bool OcclusionStage::visibleStays(const FrameRequest& request) {
                  ground_.cutNumber(),
                  serves_,
                  serves_ ? resolution_ : OcclusionResolution{},
-                 hidden_.empty() ? 0 : memory_.number(),
+                 horizonNumber(),
                  ground_.share().made()};
   // A map on the GPU removes tiles from the visible set, so that set cannot be kept.
   const bool stays = request.skips.sameVisible && !serves(OcclusionMethod::depth_map) && visibleKey_ == key;

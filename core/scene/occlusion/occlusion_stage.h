@@ -44,6 +44,10 @@ class OcclusionStage {
   void begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps);
   /// Returns one flag per tile of the cut, not 0 if the horizon proves it hidden; or nothing.
   std::span<const std::uint8_t> hidden() const { return hidden_; }
+  /// Returns one flag per box of the ground, not 0 if the horizon proves it hidden; or nothing.
+  std::span<const std::uint8_t> hiddenBoxes() const { return hiddenBoxes_; }
+  /// Returns another number for each horizon that is used; 0 if none is.
+  std::uint64_t horizonNumber() const { return hidden_.empty() ? 0 : memory_.number(); }
   /// Returns the query that selects what of the ground's cut is visible.
   VisibleQuery query(const FrameRequest& request);
   /// Returns true if the visible set of the last frame is still right, including what a map removed.
@@ -114,7 +118,7 @@ class OcclusionStage {
   OcclusionResolution resolution_;
   std::string refusal_;  ///< why nothing may be hidden from the eye
   std::optional<OcclusionMethod> serves_;
-  std::span<const std::uint8_t> hidden_;
+  std::span<const std::uint8_t> hidden_, hiddenBoxes_;
   bool mapHid_ = false;  ///< the processor's map shaped the visible set
   std::optional<VisibleKey> visibleKey_;
   std::optional<Barren> barren_;

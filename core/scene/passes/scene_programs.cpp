@@ -92,6 +92,8 @@ ScenePrograms::ScenePrograms()
                 {"terrain.vert.glsl", "node.frag.glsl", {"NODE_IDS"}},
                 {"patch.vert.glsl", "node.frag.glsl", {"NODE_IDS"}},
                 {"terrain.vert.glsl", "node.frag.glsl", {"STATIC_TREE", "NODE_IDS"}},
+                {"object.vert.glsl", "object.frag.glsl"},
+                {"object.vert.glsl", "object.frag.glsl", {"TEXTURED"}},
                 {"tree_flat.vert.glsl", "line.frag.glsl"},
                 {"line.vert.glsl", "line.frag.glsl"},
                 {"screen.vert.glsl", "sky.frag.glsl"},

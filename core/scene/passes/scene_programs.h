@@ -43,6 +43,8 @@ enum class SceneShaders {
   tile_numbers,
   patch_numbers,
   tree_numbers,
+  objects,
+  textured_objects,
   tree_picture,
   lines,
   sky,
@@ -70,7 +72,7 @@ class ScenePrograms {
   void setAir(const SceneView& view);
   void setDepthView(const DepthView& depth, const ViewShape& shape);
 
-  std::array<ShaderVariants, 12> shaders_;
+  std::array<ShaderVariants, 14> shaders_;
   Uniforms uniforms_, ofDepth_;
   unsigned defines_ = 0;
   SceneView view_;

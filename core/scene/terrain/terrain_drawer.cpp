@@ -15,15 +15,6 @@
 #include "trimtab/frame/overlays.h"
 
 namespace trimtab::scene {
-namespace {
-
-/// Returns a colour as strong as an overlay's colours are over the land's.
-std::uint32_t tint(std::array<std::uint8_t, 3> c) {
-  return c[0] | static_cast<std::uint32_t>(c[1]) << 8 | static_cast<std::uint32_t>(c[2]) << 16 | 150u << 24;
-}
-
-}  // namespace
-
 void BoundSlots::bind(unsigned slots, unsigned tints) {
   glActiveTexture(GL_TEXTURE0 + kSlotUnit);
   glBindTexture(GL_TEXTURE_BUFFER, slots);
@@ -101,7 +92,7 @@ void TerrainDrawer::drawSurface(unsigned program, std::span<const TileDraw> node
       overlays.colourByReason ? visible().reasons(bounds().size()) : std::vector<CullReason>{};
   for (const TileDraw& node : nodes)
     tints_.push_back(
-        tint(overlays.colourByReason ? reasonColour(reason[node.node]) : levelColour(levelOf(node))));
+        overlayTint(overlays.colourByReason ? reasonColour(reason[node.node]) : levelColour(levelOf(node))));
   drawTinted(program, nodes, tints_);
 }
 

@@ -31,6 +31,12 @@ struct FrameInProgress {
   bool software;  ///< GL is this processor
 };
 
+/// What a frame's horizon proves of the cells of objects.
+struct HiddenCells {
+  std::span<const std::uint8_t> flags;  ///< one per cell, not 0 if it is hidden; or nothing
+  std::uint64_t number = 0;             ///< another number whenever the flags may be others
+};
+
 /// Holds what preparing a terrain for one frame found, for the renderer to merge.
 struct PreparedTerrain {
   OcclusionResult occlusion;
@@ -40,6 +46,7 @@ struct PreparedTerrain {
   bool oneSided = false;           ///< SceneView::oneSided
   bool treePicture = false;        ///< SceneView::treePicture
   std::vector<LineVertex> lines;   ///< overlay lines
+  HiddenCells hiddenCells;         ///< of the objects on the ground
 };
 
 /// Binds, while it lives, the buffer textures that tell the terrain's vertex shaders which node a vertex

@@ -1,4 +1,5 @@
 #include "patch_ground.h"
+#include "trimtab/terrain/format/object_terrain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +78,8 @@ void PatchGround::setTerrain(std::shared_ptr<const terrain::Database> database) 
   surfaces_.reset(patches);
   lids_.reset(patches);
   map_.setTerrain(database);
+  const auto objects = database ? database->objects() : nullptr;
+  setObjects(objects ? &objects->index : nullptr);
   const std::size_t variants = any ? database->patches()->index().variants() : 1;
   surfaceErrorM_ = VariantTable<float>(variants);
   if (!any) return;

@@ -56,6 +56,7 @@ PreparedTerrain TileDrawer::prepare(const FrameInProgress& frame) {
   prepared.counters.tilesBuilt = built;
   prepared.oneSided = r.backFaces && occlusion_.eyeIsAboveGround() && !r.frozenEye;
   prepared.lines = tileBounds();
+  prepared.hiddenCells = {occlusion_.hiddenBoxes(), occlusion_.horizonNumber()};
   return prepared;
 }
 

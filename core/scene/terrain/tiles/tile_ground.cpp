@@ -1,4 +1,5 @@
 #include "tile_ground.h"
+#include "trimtab/terrain/format/object_terrain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,8 @@ void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) 
   database_ = std::move(database);
   conditions_.setDatabase(database_);
   map_.setDatabase(database_);
+  const auto objects = database_ ? database_->objects() : nullptr;
+  setObjects(objects ? &objects->index : nullptr);
   relief_.reset(database_ ? database_->index().size() : 0);
   lids_.reset(database_ ? database_->index().size() : 0);
   upright_.clear();

@@ -19,17 +19,22 @@ struct Kernels;
 
 /// A tile (or patch) of the drawn surface, as the horizon tests it.
 struct HorizonTile {
-  /// A regular grid of posts. A tile with neither this nor `mesh` hides nothing and is never hidden.
+  /// A regular grid of posts. A tile with neither this nor another surface hides nothing and is never hidden.
   const TileRelief* relief = nullptr;
   bool mayOcclude = false;
   /// Neighbours whose lines continue this tile's lines, or null. They must be drawn at the same level and may
   /// occlude. With them the column of directions that contains the common border is not lost.
   const TileRelief *east = nullptr, *north = nullptr;
   const MeshRelief* mesh = nullptr;  ///< instead of `relief`: any triangles
+  /// Instead of both: what lies in a box that hides nothing, such as objects that stand on the ground.
+  const Relief* box = nullptr;
   /// Metres by which the surface may be drawn lower and higher than given while the horizon is in use.
   float below = 0, above = 0;
 
-  const Relief* surface() const { return relief ? static_cast<const Relief*>(relief) : mesh; }
+  const Relief* surface() const {
+    if (relief) return relief;
+    return mesh ? static_cast<const Relief*>(mesh) : box;
+  }
 };
 
 /// The validity region of a horizon: all eye positions within `radius` of a segment, metres, local frame.

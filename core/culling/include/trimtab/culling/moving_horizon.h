@@ -34,6 +34,9 @@ class MovingHorizon {
     std::uint64_t cut = 0;   ///< a new number for each new cut
     std::uint64_t rule = 0;  ///< a new number if the cut differs by more than the eye it was selected for
     std::span<const TileDraw> tiles;  ///< the whole cut
+    /// What else may be hidden, and hides nothing: boxes (HorizonTile::box) that do not depend on the cut.
+    /// They must be the same in every frame until clear().
+    std::span<const HorizonTile> boxes = {};
     /// maxErrorPx * lodScale / pixelsPerRadian, as in selectLevels. If it is 0 (not known), any new cut ends
     /// the horizon.
     double errorOverDistance = 0;
@@ -54,6 +57,9 @@ class MovingHorizon {
   /// a number. The result is valid until the next call. Call clear() first if the index behind `tree` has
   /// changed.
   std::span<const std::uint8_t> hidden(const Frame& frame, const SurfaceTree& tree, const Fill& fill);
+  /// Returns one flag per box of the last frame, in order: 1 if it is proven hidden. Valid until the next
+  /// call of hidden().
+  std::span<const std::uint8_t> hiddenBoxes() const { return hiddenBoxes_; }
   /// Discards all horizons and the eye's motion.
   void clear();
   /// Discards the horizons because more surfaces are known, so that the next call builds one at once. The
@@ -98,12 +104,14 @@ class MovingHorizon {
   ValidityRegion regionAhead(Vec3 eye, double firstFrame, double lastFrame) const;
   void prepareNext(const Frame& frame, const SurfaceTree& tree, const Fill& fill);
   std::span<const std::uint8_t> verdicts(const Frame& frame);
+  std::span<const std::uint8_t> verdictsOfBuild();
 
   std::array<Build, 2> builds_;
   std::size_t active_ = 0;      ///< the build in use
   bool moving_ = false;         ///< lastEye_ is known
   Vec3 lastEye_, step_, turn_;  ///< step_ in metres per frame, turn_ per frame squared
   std::vector<std::uint8_t> verdicts_;
+  std::span<const std::uint8_t> hiddenBoxes_;  ///< of the build in use
   bool isCarried_ = false;
   const Build* carriedBy_ = nullptr;  ///< the build that verdicts_ are of, for the cut carriedTo_
   std::uint64_t carriedTo_ = 0;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "trimtab/frame/frame.h"
+#include "trimtab/frame/object_frame.h"
 #include "trimtab/frame/static_lod_frame.h"
 #include "trimtab/frame/terrain_frame.h"
 #include "trimtab/frame/visible_set.h"
@@ -56,6 +57,7 @@ struct FrameResult : OcclusionResult {
   std::size_t tilesInCut = 0;
   bool patches = false;  ///< the nodes of `visible` are patches
   PagingFrame paging;
+  ObjectFrame objects;
   StaticLodFrame staticLod;  ///< if `drawn`, the nodes of `visible` are nodes of the static trees
   FrameCounters counters;
 };

@@ -57,6 +57,7 @@ struct TerrainInfo {
 struct StaticLodTerrain;
 class GroundPyramid;
 class PatchTerrain;
+struct ObjectTerrain;
 
 /// An open database. All functions are const and thread-safe.
 class Database : public GroundHeights {
@@ -77,6 +78,8 @@ class Database : public GroundHeights {
   virtual std::shared_ptr<const PatchTerrain> patches() const { return nullptr; }
   /// Returns colours and normals of the ground; null in a database of version 1.
   virtual std::shared_ptr<const GroundPyramid> ground() const { return nullptr; }
+  /// Returns what stands on the ground, in the index's frame; null if nothing does.
+  virtual std::shared_ptr<const ObjectTerrain> objects() const { return nullptr; }
   /// Returns the height of the highest post within `radius`, or none if no post is that near.
   virtual std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const = 0;
   /// Returns the damage found so far; large files are checked as they are read. In a damaged block heights

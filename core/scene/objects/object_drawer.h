@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/scene/objects/object_layer.h"
+#include "core/scene/passes/scene_programs.h"
+#include "core/scene/terrain/terrain_drawer.h"
+#include "trimtab/culling/select_objects.h"
+#include "trimtab/frame/object_frame.h"
+
+namespace trimtab::scene {
+
+/// Draws what stands on the ground, in any form of the terrain: selects it, keeps the selection while nothing
+/// that it depends on changes, and draws it after the ground.
+class ObjectDrawer {
+ public:
+  /// Starts with the objects of another terrain. If there is a context, it must be current.
+  void setTerrain(const std::shared_ptr<const terrain::Database>& database);
+  void initialize();
+  void release() { layer_.reset(); }
+
+  /// Selects what the frame draws and uploads it. `hidden` must be of this frame.
+  void prepare(const FrameInProgress& frame, const HiddenCells& hidden);
+  /// Returns whether the last prepared frame draws any object.
+  bool drawsAny() const { return layer_ && !shown().drawn.empty(); }
+  /// Draws them, with depths tested against what is there.
+  void draw(ScenePrograms& programs, bool wire);
+  /// Returns what the last prepared frame draws.
+  ObjectFrame frame() const;
+
+ private:
+  /// Everything that a selection depends on.
+  struct Key {
+    EyePose eye;
+    ViewShape view;
+    CullingCase cullingCase = CullingCase::none;
+    CutRule rule;
+    double leastPx = 0, farM = 0, airM = 0;
+    std::uint64_t hidden = 0;
+    // What is uploaded depends on these too.
+    Vec3 seenFrom;
+    bool byReason = false, byLevel = false;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  const VisibleObjects& shown() const { return key_ && key_->byReason ? all_ : visible_; }
+  std::vector<std::uint32_t> tintsOf(const VisibleObjects& shown) const;
+
+  std::shared_ptr<const terrain::ObjectTerrain> objects_;
+  std::optional<Key> key_;
+  VisibleObjects visible_;
+  VisibleObjects all_;  ///< also what is culled, if reasons are shown
+  std::unique_ptr<ObjectLayer> layer_;
+};
+
+}  // namespace trimtab::scene
