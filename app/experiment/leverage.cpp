@@ -5,12 +5,12 @@
 #include <deque>
 
 #include "stage.h"
+#include "trimtab/decision/decide.h"
 #include "trimtab/fuzzy/bands.h"
 #include "trimtab/measure/machine_watch.h"
 #include "trimtab/measure/paired_ratio.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/error_meter.h"
-#include "trimtab/decision/decide.h"
 #include "trimtab/session/session.h"
 #include "trimtab/units/not_finite.h"
 
@@ -71,6 +71,10 @@ Estimate estimate(const PairedDifference& d) {
   return estimate(d.median, d.low, d.high);
 }
 
+bool movesObjects(Lever lever) {
+  return lever == Lever::object_error || lever == Lever::small_feature || lever == Lever::object_distance;
+}
+
 template <class Has>
 bool any(const std::vector<Moment>& moments, const Has& has) {
   return std::any_of(moments.begin(), moments.end(), [&](const Moment& m) { return has(m.request); });
@@ -88,6 +92,8 @@ class Run {
     if (Findings failed = make(plain, false); !failed.empty()) return failed;
     std::vector<LeverageRow> rows;
     for (const LeverRow& lever : kLeverRows) {
+      // Nothing moves where nothing stands on the ground.
+      if (movesObjects(lever.lever) && !setup_.terrain->objects()) continue;
       Condition own;
       if (Findings failed = conditionFor(lever.lever, plain, own); !failed.empty()) return failed;
       rows.push_back(measure(lever, own.moments.empty() ? plain : own));

@@ -127,6 +127,9 @@ const std::vector<Quantity>& quantities() {
         lever<4>(),
         lever<5>(),
         lever<6>(),
+        lever<7>(),
+        lever<8>(),
+        lever<9>(),
     };
     list.insert(list.end(), std::begin(others), std::end(others));
     return list;

@@ -137,6 +137,9 @@ PolicyOutcome followPolicy(const CompiledPolicy& policy, const FrameInput& input
   neutral[Lever::occlusion] = total.value_or(0);
   neutral[Lever::screen_space_error] = parameters->lod.screenSpaceError.value();
   neutral[Lever::lod_scale] = parameters->lod.scale.value();
+  neutral[Lever::object_error] = parameters->objects.errorPx.value();
+  neutral[Lever::small_feature] = parameters->objects.smallFeature.value();
+  neutral[Lever::object_distance] = parameters->objects.farDistance.value();
   return {memory.levers.follow(input.state.time, decision.target, neutral).value, policy.levers(),
           decision.unknownAsked};
 }

@@ -5,11 +5,12 @@
 namespace trimtab {
 namespace {
 
-/// Static trees keep their share of the error, so that a lever which rests at the preset's value changes
-/// nothing in any form of terrain.
+/// Static trees and objects keep their share of the error, so that a lever which rests at the preset's value
+/// changes nothing.
 void setError(FrameLevers& levers, double errorPx) {
   if (errorPx == levers.errorPx) return;
   levers.treeErrorPx *= errorPx / levers.errorPx;
+  levers.objectErrorPx *= errorPx / levers.errorPx;
   levers.errorPx = errorPx;
 }
 
@@ -21,6 +22,9 @@ FrameLevers presetLevers(const TuningParameters& preset, std::optional<Occlusion
   levers.treeErrorPx = preset.staticLod.errorPx.value();
   levers.lodScale = preset.lod.scale.value();
   levers.levelSpread = preset.lod.spread.value();
+  levers.objectErrorPx = preset.objects.errorPx.value();
+  levers.smallFeaturePx = preset.objects.smallFeature.value();
+  levers.objectFarM = preset.objects.farDistance.value();
   levers.occlusion = occlusion;
   return levers;
 }
@@ -45,6 +49,9 @@ FrameLevers withPolicy(FrameLevers levers, const PolicyOutcome& policy, const Mo
   if (policy.moves(Lever::particle_density)) levers.particleShare = policy[Lever::particle_density];
   if (policy.moves(Lever::blur_strength)) levers.blurStrength *= policy[Lever::blur_strength];
   if (policy.moves(Lever::render_scale)) levers.renderScale = policy[Lever::render_scale];
+  if (policy.moves(Lever::object_error)) levers.objectErrorPx = policy[Lever::object_error];
+  if (policy.moves(Lever::small_feature)) levers.smallFeaturePx = policy[Lever::small_feature];
+  if (policy.moves(Lever::object_distance)) levers.objectFarM = policy[Lever::object_distance];
   return levers;
 }
 

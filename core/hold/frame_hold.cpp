@@ -38,6 +38,17 @@ const std::vector<float>& FrameHold::treeErrorOf(ErrorMeasure measure) {
 }
 
 TriangleLadder FrameHold::count(const FrameRequest& request, const LoadView& view) {
+  TriangleLadder ladder = countGround(request, view);
+  if (!index_->objects || !formOf(request, *index_)) return ladder;
+  CutRule rule = objectRuleOf(request);
+  const FrameLevers& asked = request.levers.policy;
+  rule.maxErrorPx = asked.objectErrorPx;
+  const TriangleLadder objects = countTriangles(*index_->objects, view, rule, asked.errorPx, asked);
+  for (std::size_t k = 0; k < kErrorSteps; ++k) ladder[k] += objects[k];
+  return ladder;
+}
+
+TriangleLadder FrameHold::countGround(const FrameRequest& request, const LoadView& view) {
   const std::optional<TerrainForm> form = formOf(request, *index_);
   TriangleLadder ladder;
   ladder.fill(lastTriangles_);

@@ -227,6 +227,56 @@ void collectNodes(const StaticLodIndex& index, const std::vector<float>& error, 
   walkTrees(index, error, view, rule, kNoScale, 1, stack, collector(nodes));
 }
 
+ObjectLoad::ObjectLoad(std::shared_ptr<const ObjectIndex> index) : index_(std::move(index)) {
+  triangles_.resize(index_->cells.size());
+  for (std::uint32_t number = 0; number < index_->cells.size(); ++number) {
+    const ObjectIndex::Cell& cell = index_->cells[number];
+    if (!cell.isLeaf(number)) continue;
+    for (std::uint32_t i = cell.firstInstance; i < cell.firstInstance + cell.instances; ++i) {
+      const ObjectInstance& instance = index_->instances[i];
+      const ObjectIndex::Model& model = index_->models[instance.model];
+      std::uint32_t level = 0;
+      for (std::size_t step = 0; step < kSteps; ++step) {
+        const double accepted = kFirstM * std::exp2(0.5 * static_cast<double>(step)) / instance.scale;
+        while (level + 1 < model.levels && index_->levels[model.firstLevel + level + 1].errorM <= accepted)
+          ++level;
+        triangles_[number][step] += static_cast<float>(index_->levels[model.firstLevel + level].triangles);
+      }
+    }
+  }
+}
+
+double ObjectLoad::triangles(std::uint32_t cell, double acceptedM) const {
+  const double step = 2 * std::log2(acceptedM / kFirstM);
+  return triangles_[cell][static_cast<std::size_t>(std::clamp(step, 0.0, double{kSteps - 1}))];
+}
+
+TriangleLadder countTriangles(const ObjectLoad& load, const LoadView& view, const CutRule& rule,
+                              double askedPx, const FrameLevers& levers) {
+  const ObjectIndex& index = load.index();
+  const Outside outside(view);
+  const double toNext = placesToNext(askedPx), perDistance = std::sqrt(rule.limit());
+  TriangleLadder ladder{};
+  for (std::uint32_t number = 0; number < index.cells.size();) {
+    const ObjectIndex::Cell& cell = index.cells[number];
+    const double away = std::sqrt(distanceSquared(cell.bounds, view.eye.position));
+    if (outside(cell.bounds) || away > levers.objectFarM ||
+        2 * cell.largestRadiusM * rule.pixelsPerRadian < levers.smallFeaturePx * away) {
+      number = cell.end;
+      continue;
+    }
+    if (cell.isLeaf(number)) {
+      const double spread = std::sqrt(spreadSquared(away * away, 1 / rule.spread, rule.spreadFromM));
+      for (std::size_t k = 0; k < kErrorSteps; ++k) {
+        const double places = k == 0 ? 0 : toNext + static_cast<double>(k - 1);
+        ladder[k] += load.triangles(number, perDistance * spread * std::exp2(places / kPlacesPerOctave));
+      }
+    }
+    ++number;
+  }
+  return ladder;
+}
+
 double shareBelowHorizon(const LoadView& view, Vec3 up, double heightM) {
   constexpr int kColumns = 9, kRows = 16;
   const double horizon = -std::sin(horizonDip(heightM));

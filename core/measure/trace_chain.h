@@ -20,7 +20,7 @@ struct ChainColumn {
   const char* name;
   double FrameLevers::*lever;
 };
-inline constexpr std::array<ChainColumn, 8> kChainColumns{
+inline constexpr std::array<ChainColumn, 11> kChainColumns{
     {{"chain_error_px", &FrameLevers::errorPx},
      {"chain_tree_error_px", &FrameLevers::treeErrorPx},
      {"chain_lod_scale", &FrameLevers::lodScale},
@@ -28,7 +28,10 @@ inline constexpr std::array<ChainColumn, 8> kChainColumns{
      {"chain_far_m", &FrameLevers::farM},
      {"chain_render_scale", &FrameLevers::renderScale},
      {"chain_particles", &FrameLevers::particleShare},
-     {"chain_blur_strength", &FrameLevers::blurStrength}}};
+     {"chain_blur_strength", &FrameLevers::blurStrength},
+     {"chain_object_error_px", &FrameLevers::objectErrorPx},
+     {"chain_small_feature_px", &FrameLevers::smallFeaturePx},
+     {"chain_object_far_m", &FrameLevers::objectFarM}}};
 /// The chain of the levers; 0 is an occlusion resolution that is unset.
 struct FlatChain {
   std::array<ChainCell, kChainColumns.size()> levers;

@@ -4,6 +4,7 @@
 #include "hold_rows.h"
 #include "host_rows.h"
 #include "motion_rows.h"
+#include "object_rows.h"
 #include "policy_rows.h"
 #include "static_lod_rows.h"
 #include "symbology_rows.h"
@@ -17,9 +18,10 @@ namespace trimtab {
 namespace {
 
 // Groups of keys stay together, in the order people should read them.
-constexpr std::array kTable = table::joined(
-    table::kFuzzyRows, table::kViewRows, table::kTerrainRows, table::kStaticLodRows, table::kMotionRows,
-    table::kWeatherRows, table::kSymbologyRows, table::kPolicyRows, table::kHoldRows, table::kHostRows);
+constexpr std::array kTable =
+    table::joined(table::kFuzzyRows, table::kViewRows, table::kTerrainRows, table::kObjectRows,
+                  table::kStaticLodRows, table::kMotionRows, table::kWeatherRows, table::kSymbologyRows,
+                  table::kPolicyRows, table::kHoldRows, table::kHostRows);
 
 static_assert(table::everyFieldHasOneRow(kTable), "a field of parameters.h has no row, or two");
 static_assert(table::keysAreOrderly(kTable), "a key is there twice, or is not beside the keys of its group");

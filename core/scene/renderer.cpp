@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "core/scene/gl/frame_buffer.h"
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/guard_band.h"
 #include "core/scene/gl/stage_clock.h"
 #include "core/scene/objects/object_drawer.h"
+#include "core/scene/occlusion/horizon_memory.h"
 #include "core/scene/passes/blur_pass.h"
 #include "core/scene/passes/lines.h"
 #include "core/scene/passes/node_pass.h"
@@ -311,6 +310,8 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
     result.visible = terrain->visible();
     result.tilesInCut = terrain->cut().size();
     if (terrain == &trees) result.staticLod = trees.frame();
+    result.visible.triangles += result.objects.triangles;
+    result.visible.vertices += result.objects.vertices;
     terrain->finished(result);
   }
   counters += result.counters;
@@ -412,16 +413,7 @@ DistanceImage Renderer::readDepthMap() {
 std::vector<float> Renderer::readHorizon(int samples) {
   const Horizon* horizon = impl_->gl && impl_->terrain ? impl_->terrain->horizon() : nullptr;
   if (!horizon || samples <= 0) return {};
-  std::vector<float> elevations;
-  constexpr double kDegrees = 180 / std::numbers::pi;
-  for (int i = 0; i < samples; ++i) {
-    // Clockwise from south.
-    const double turned = 2 * std::numbers::pi * (i + 0.5) / samples;
-    const auto elevation = horizon->elevation(-std::sin(turned), -std::cos(turned));
-    elevations.push_back(elevation ? static_cast<float>(*elevation * kDegrees)
-                                   : std::numeric_limits<float>::quiet_NaN());
-  }
-  return elevations;
+  return elevationsOf(*horizon, samples);
 }
 
 Findings Renderer::pageFailures() const {

@@ -99,7 +99,7 @@ FrameRequest referenceOf(const FrameRequest& request) {
   r.staticLod.rule = StaticDistanceRule::picture;
   r.levers.drawn = {};
   r.levers.drawn.errorPx = (r.terrain.form == TerrainForm::patches ? kFinestPatches : kFinest).value();
-  r.levers.drawn.treeErrorPx = kFinest.value();
+  r.levers.drawn.treeErrorPx = r.levers.drawn.objectErrorPx = kFinest.value();
   return r;
 }
 

@@ -2,9 +2,25 @@
 #include "trimtab/frame/frame_request.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 namespace trimtab::scene {
+
+std::vector<float> elevationsOf(const Horizon& horizon, int samples) {
+  std::vector<float> elevations;
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  for (int i = 0; i < samples; ++i) {
+    // Clockwise from south.
+    const double turned = 2 * std::numbers::pi * (i + 0.5) / samples;
+    const auto elevation = horizon.elevation(-std::sin(turned), -std::cos(turned));
+    elevations.push_back(elevation ? static_cast<float>(*elevation * kDegrees)
+                                   : std::numeric_limits<float>::quiet_NaN());
+  }
+  return elevations;
+}
 
 void OcclusionGround::setObjects(const ObjectIndex* objects) {
   boxes_.clear();

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "occlusion_ground.h"
 #include "trimtab/culling/moving_horizon.h"
@@ -11,6 +12,10 @@
 #include "trimtab/scene/distance_image.h"
 
 namespace trimtab::scene {
+
+/// Returns the elevations of a horizon in so many directions of equal distance, clockwise from south,
+/// degrees; NaN where it has no ground.
+std::vector<float> elevationsOf(const Horizon& horizon, int samples);
 
 /// The horizon of a moving eye, which is left out where it would hide next to nothing.
 class HorizonMemory {

@@ -1,5 +1,6 @@
 #include "trimtab/scene/load_index.h"
 
+#include "trimtab/terrain/format/object_terrain.h"
 #include "trimtab/terrain/format/patch_terrain.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 
@@ -15,6 +16,9 @@ std::shared_ptr<const LoadIndex> loadIndexOf(const std::shared_ptr<const terrain
     index->patches = std::shared_ptr<const PatchIndex>(patches, &patches->index());
   if (const auto trees = database->staticLod())
     index->trees = std::shared_ptr<const StaticLodIndex>(trees, &trees->index);
+  if (const auto objects = database->objects())
+    index->objects = std::make_shared<const ObjectLoad>(
+        std::shared_ptr<const ObjectIndex>(objects, &objects->index));
   return index;
 }
 

@@ -53,4 +53,11 @@ inline CutKey cutKeyOf(const FrameRequest& request, Vec3 eye, double statedError
            errorPxPerRadian(request), request.levers.drawn.levelSpread, request.spreadFrom.value()}};
 }
 
+/// Returns the rule by which a request chooses the levels of objects.
+inline CutRule objectRuleOf(const FrameRequest& request) {
+  CutRule rule = cutKeyOf(request, {}, 1).rule;
+  rule.maxErrorPx = request.levers.drawn.objectErrorPx;
+  return rule;
+}
+
 }  // namespace trimtab

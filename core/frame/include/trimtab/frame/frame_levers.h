@@ -30,7 +30,12 @@ struct FrameLevers {
   double renderScale = 1;    ///< the part of the image's width and height at which the scene is drawn
   double particleShare = 1;  ///< the share of drops and flakes that is drawn
   double blurStrength = 0;   ///< as MotionBlur::strength; at 0 no blur pass runs
-  std::optional<OcclusionResolution> occlusion;  ///< if unset, nothing is tested for occlusion
+  /// That of objects. The preset sets it; whatever changes `errorPx` changes it by the same factor, but a
+  /// rule of its own does not.
+  double objectErrorPx = 2;
+  double smallFeaturePx = 0;  ///< an object that is smaller in the image is not drawn, pixels
+  double objectFarM = WeatherDecision::kUnlimited;  ///< an object farther from the eye is not drawn, metres
+  std::optional<OcclusionResolution> occlusion;     ///< if unset, nothing is tested for occlusion
 
   friend bool operator==(const FrameLevers&, const FrameLevers&) = default;
 };
@@ -59,8 +64,9 @@ FrameLevers withMotion(FrameLevers levers, const MotionDecision& motion);
 /// 3. The weather sets the far distance, which nothing set before (document D).
 FrameLevers withWeather(FrameLevers levers, const WeatherDecision& weather);
 /// 4. Levers that some rule of the policy moves change, and no others. Allowed error, particle share and
-/// render scale take the policy's value; the LOD scale takes it times that of head motion; far distance and
-/// blur are multiplied by it. `occlusion` is the resolution that the policy's total chose.
+/// render scale and those of objects take the policy's value; the LOD scale takes it times that of head
+/// motion; far distance and blur are multiplied by it. `occlusion` is the resolution that the policy's total
+/// chose.
 FrameLevers withPolicy(FrameLevers levers, const PolicyOutcome& policy, const MotionDecision& motion,
                        std::optional<OcclusionResolution> occlusion);
 /// 5. Applies what the arbiter of the budget decided: allowed error, render scale and particle share are its
@@ -76,7 +82,7 @@ struct FrameLeverRow {
 };
 
 /// Every lever except that of static trees, which follows the allowed error.
-inline constexpr std::array<FrameLeverRow, 8> kFrameLeverRows{{
+inline constexpr std::array<FrameLeverRow, 11> kFrameLeverRows{{
     {rowOf(Lever::screen_space_error).key, rowOf(Lever::screen_space_error).label, "px",
      &FrameLevers::errorPx},
     {rowOf(Lever::lod_scale).key, rowOf(Lever::lod_scale).label, "", &FrameLevers::lodScale},
@@ -86,6 +92,9 @@ inline constexpr std::array<FrameLeverRow, 8> kFrameLeverRows{{
     {rowOf(Lever::particle_density).key, rowOf(Lever::particle_density).label, "",
      &FrameLevers::particleShare},
     {rowOf(Lever::blur_strength).key, rowOf(Lever::blur_strength).label, "", &FrameLevers::blurStrength},
+    {rowOf(Lever::object_error).key, rowOf(Lever::object_error).label, "px", &FrameLevers::objectErrorPx},
+    {rowOf(Lever::small_feature).key, rowOf(Lever::small_feature).label, "px", &FrameLevers::smallFeaturePx},
+    {rowOf(Lever::object_distance).key, rowOf(Lever::object_distance).label, "m", &FrameLevers::objectFarM},
     {rowOf(Lever::occlusion).key, rowOf(Lever::occlusion).label, "px", nullptr},
 }};
 

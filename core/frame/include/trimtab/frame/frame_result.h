@@ -25,9 +25,9 @@ struct FrameCounters {
                                          ///< ancestors, or too many strokes
   std::uint64_t cutsSelected = 0, visibleSelected = 0, tilesBuilt = 0;
   std::uint64_t tilesBuiltAhead = 0;  ///< between images (Renderer::buildAhead), and not in tilesBuilt
-  std::uint64_t depthMapsDrawn = 0;  ///< by the GPU
-  std::uint64_t mapsDrawnByCpu = 0;  ///< depth maps that the processor drew
-  std::uint64_t mapsLeftOut = 0;     ///< of these not drawn, because near here one hid next to nothing
+  std::uint64_t depthMapsDrawn = 0;   ///< by the GPU
+  std::uint64_t mapsDrawnByCpu = 0;   ///< depth maps that the processor drew
+  std::uint64_t mapsLeftOut = 0;      ///< of these not drawn, because near here one hid next to nothing
   std::uint64_t horizonsBuilt = 0;
   std::uint64_t horizonsMoved = 0;      ///< moved along with the eye instead of being built
   std::uint64_t horizonsLeftOut = 0;    ///< not built, because near here one hid next to nothing
@@ -57,7 +57,7 @@ struct FrameResult : OcclusionResult {
   std::size_t tilesInCut = 0;
   bool patches = false;  ///< the nodes of `visible` are patches
   PagingFrame paging;
-  ObjectFrame objects;
+  ObjectFrame objects;       ///< `visible` counts their triangles and vertices too
   StaticLodFrame staticLod;  ///< if `drawn`, the nodes of `visible` are nodes of the static trees
   FrameCounters counters;
 };

@@ -68,6 +68,7 @@ class FrameHold {
  private:
   HoldDecision apply(const HoldGiven& given, const HoldDecision& decision, FrameRequest& request);
   TriangleLadder count(const FrameRequest& request, const LoadView& view);
+  TriangleLadder countGround(const FrameRequest& request, const LoadView& view);
   const std::vector<float>& treeErrorOf(ErrorMeasure measure);
   void collect(const FrameRequest& request, const LoadView& view, double errorScale);
   LoadView viewOf(const FrameRequest& request, const ComingEye& eye) const;

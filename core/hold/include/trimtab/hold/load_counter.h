@@ -10,6 +10,7 @@
 #include "trimtab/culling/cut_rule.h"
 #include "trimtab/culling/select_static.h"
 #include "trimtab/frame/eye_pose.h"
+#include "trimtab/frame/object_index.h"
 #include "trimtab/frame/patch_index.h"
 #include "trimtab/frame/static_lod_index.h"
 #include "trimtab/frame/terrain_index.h"
@@ -30,11 +31,29 @@ using TriangleLadder = std::array<double, kErrorSteps>;
 /// Returns how far the first place above an error is, in places: above 0 and at most 1.
 double placesToNext(double errorPx);
 
+/// What the objects of a terrain draw, by cell and by the error that is accepted: made once, so that a count
+/// visits cells and no instances.
+class ObjectLoad {
+ public:
+  explicit ObjectLoad(std::shared_ptr<const ObjectIndex> index);
+  const ObjectIndex& index() const { return *index_; }
+  /// Returns the triangles that a cell without children draws where an error, metres, is accepted. It counts
+  /// in steps of half an octave.
+  double triangles(std::uint32_t cell, double acceptedM) const;
+
+ private:
+  static constexpr std::size_t kSteps = 24;  ///< from kFirstM on
+  static constexpr double kFirstM = 0.01;
+  std::shared_ptr<const ObjectIndex> index_;
+  std::vector<std::array<float, kSteps>> triangles_;  ///< one row per cell, empty for cells with children
+};
+
 /// The indices of a terrain's forms, all in one local frame. A form that the terrain does not have is null.
 struct LoadIndex {
   std::shared_ptr<const TerrainIndex> tiles;
   std::shared_ptr<const PatchIndex> patches;
   std::shared_ptr<const StaticLodIndex> trees;
+  std::shared_ptr<const ObjectLoad> objects;  ///< null if nothing stands on the ground
   LocalFrame frame;
 };
 
@@ -56,6 +75,11 @@ TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, con
 TriangleLadder countTriangles(const StaticLodIndex& index, const std::vector<float>& error,
                               const LoadView& view, const StaticLodRule& rule, double askedPx,
                               std::vector<std::uint64_t>& stack);
+
+/// Returns the triangles of objects in the frustum likewise. `rule` is the objects' own; an octave of the
+/// ladder is an octave of its error too. Of what is too small or too far only whole cells are left out.
+TriangleLadder countTriangles(const ObjectLoad& load, const LoadView& view, const CutRule& rule,
+                              double askedPx, const FrameLevers& levers);
 
 /// Appends the nodes that a view draws, as step 0 of the ladder counts them.
 void collectNodes(const TerrainIndex& index, const LoadView& view, const CutRule& rule,

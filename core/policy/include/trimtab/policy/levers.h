@@ -19,7 +19,10 @@ enum class Lever : std::uint8_t {
   far_distance,
   particle_density,
   blur_strength,
-  render_scale
+  render_scale,
+  object_error,
+  small_feature,
+  object_distance
 };
 
 /// Says what a larger value does to the time of a frame.
@@ -134,6 +137,42 @@ inline constexpr std::array kLeverRows{
              2,
              0.02,
              "the part of the image's width and height at which the scene is drawn; symbols stay sharp"},
+    LeverRow{Lever::object_error,
+             "object_error",
+             "Allowed error of objects",
+             "px",
+             detail::kPresetsOwn,
+             {0.1, 256},
+             {1, 16},
+             CostOf::falls,
+             true,
+             8,
+             0.05,
+             "takes the place of objects.error_px"},
+    LeverRow{Lever::small_feature,
+             "small_feature",
+             "Smallest object",
+             "px",
+             detail::kPresetsOwn,
+             {0, 256},
+             {0, 8},
+             CostOf::falls,
+             false,
+             16,
+             0.1,
+             "takes the place of objects.small_feature_px"},
+    LeverRow{Lever::object_distance,
+             "object_distance",
+             "Farthest object",
+             "m",
+             detail::kPresetsOwn,
+             {10, 1e6},
+             {2000, 50000},
+             CostOf::rises,
+             true,
+             8,
+             0.05,
+             "takes the place of objects.far_m"},
 };
 inline constexpr std::size_t kLevers = kLeverRows.size();
 
@@ -178,7 +217,7 @@ constexpr bool leverRowsAreInOrder() {
   }
   return true;
 }
-static_assert(leverRowsAreInOrder() && static_cast<std::size_t>(Lever::render_scale) + 1 == kLevers);
+static_assert(leverRowsAreInOrder() && static_cast<std::size_t>(Lever::object_distance) + 1 == kLevers);
 }  // namespace detail
 
 }  // namespace trimtab

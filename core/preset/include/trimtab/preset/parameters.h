@@ -109,6 +109,13 @@ struct TerrainParameters {
   Megabytes cache{512};
 };
 
+/// What stands on the ground.
+struct ObjectParameters {
+  Pixels errorPx{2};
+  Pixels smallFeature{1};  ///< what is smaller in the image is not drawn
+  Metres farDistance{100000};
+};
+
 /// Static LOD trees (document E).
 struct StaticLodParameters {
   ErrorMeasure error = ErrorMeasure::rms;
@@ -245,6 +252,7 @@ struct TuningParameters {
   CullingParameters culling;
   LodParameters lod;
   TerrainParameters terrain;
+  ObjectParameters objects;
   StaticLodParameters staticLod;
   ViewParameters view;
   WeatherParameters weather;
