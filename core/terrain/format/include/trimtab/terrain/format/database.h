@@ -54,6 +54,7 @@ struct TerrainInfo {
   std::optional<SceneryCounts> scenery;  ///< unset if no source was scenery
 };
 
+struct ObjectTerrain;
 struct StaticLodTerrain;
 class GroundPyramid;
 class PatchTerrain;
@@ -61,9 +62,9 @@ class PatchTerrain;
 /// An open database. All functions are const and thread-safe.
 class Database : public GroundHeights {
  public:
-  /// Opens a folder. Reads the indices, the static LOD and the slopes of tiles (a byte per cell); heights,
-  /// colours and meshes are read when they are used. On failure returns findings with file, place, expected
-  /// and found.
+  /// Opens a folder. Reads the indices, the static LOD, the objects and the slopes of tiles (a byte per
+  /// cell); heights, colours and meshes are read when they are used. On failure returns findings with file,
+  /// place, expected and found.
   static Result<std::shared_ptr<const Database>> open(const std::filesystem::path& folder);
 
   virtual const TerrainInfo& info() const = 0;
@@ -77,6 +78,8 @@ class Database : public GroundHeights {
   virtual std::shared_ptr<const PatchTerrain> patches() const { return nullptr; }
   /// Returns colours and normals of the ground; null in a database of version 1.
   virtual std::shared_ptr<const GroundPyramid> ground() const { return nullptr; }
+  /// Returns what stands on the ground, in the index's frame; null if nothing does.
+  virtual std::shared_ptr<const ObjectTerrain> objects() const { return nullptr; }
   /// Returns the height of the highest post within `radius`, or none if no post is that near.
   virtual std::optional<Metres> highestWithin(Degrees latitude, Degrees longitude, Metres radius) const = 0;
   /// Returns the damage found so far; large files are checked as they are read. In a damaged block heights
