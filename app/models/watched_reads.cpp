@@ -59,23 +59,25 @@ class WatchedReads::Files final : public osgDB::ReadFileCallback {
     else if (++count_ > kMostFiles)
       why = "more than " + std::to_string(kMostFiles) + " files, not opened";
     if (!why.empty()) {
-      watch_.add(file, "a reference to a model (" + modelFormats() + ")", why);
+      watch_.add(Severity::warning, file, "a reference to a model (" + modelFormats() + ")", why);
       return osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE;
     }
     open_.push_back(name);
     auto result = osgDB::ReadFileCallback::readNode(file, options);
     open_.pop_back();
-    if (isReference && !result.validNode()) watch_.add(file, "a model that can be read, referred to", "none");
+    if (isReference && !result.validNode())
+      watch_.add(Severity::warning, file, "a model that can be read, referred to", "none");
     return result;
   }
   osgDB::ReaderWriter::ReadResult readImage(const std::string& file, const osgDB::Options* options) override {
     if (osgDB::containsServerAddress(file)) {
-      watch_.add(file, "a texture beside the model", "one on a network, not opened");
+      watch_.add(Severity::warning, file, "a texture beside the model", "one on a network, not opened");
       return osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE;
     }
     auto result = osgDB::ReadFileCallback::readImage(file, options);
     if (!result.validImage())
-      watch_.add(file, "a texture that can be read, in the model's folder or where the model says",
+      watch_.add(Severity::warning, file,
+                 "a texture that can be read, in the model's folder or where the model says",
                  "none: its triangles are drawn in their colour");
     return result;
   }
@@ -92,7 +94,9 @@ class WatchedReads::Notices final : public osg::NotifyHandler {
   void notify(osg::NotifySeverity, const char* message) override {
     line_ += message;
     for (std::size_t end; (end = line_.find('\n')) != std::string::npos; line_.erase(0, end + 1))
-      if (end > 0) watch_.add("", "a model that OpenSceneGraph reads without a word", line_.substr(0, end));
+      if (end > 0)
+        watch_.add(Severity::note, "", "a model that OpenSceneGraph reads without a word",
+                   line_.substr(0, end));
   }
 
  private:
@@ -100,9 +104,9 @@ class WatchedReads::Notices final : public osg::NotifyHandler {
   std::string line_;
 };
 
-void WatchedReads::add(const std::string& key, const std::string& expected, const std::string& found) {
-  if (said_.insert(key + '\n' + found).second)
-    list_.add({Severity::warning, model_.string(), key, expected, found});
+void WatchedReads::add(Severity severity, const std::string& key, const std::string& expected,
+                       const std::string& found) {
+  if (said_.insert(key + '\n' + found).second) list_.add({severity, model_.string(), key, expected, found});
 }
 
 WatchedReads::WatchedReads(std::filesystem::path model)

@@ -28,8 +28,8 @@ class WatchedReads {
  private:
   class Files;
   class Notices;
-  /// Adds a warning, once.
-  void add(const std::string& key, const std::string& expected, const std::string& found);
+  /// Adds a finding, once.
+  void add(Severity severity, const std::string& key, const std::string& expected, const std::string& found);
 
   std::filesystem::path model_;
   FindingList list_;
