@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/models/read_model.h"
 #include "commands.h"
 #include "progress.h"
 #include "terrain_info.h"
@@ -100,7 +101,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
 
   struct BakeArguments {
     std::vector<std::string> sources;
-    std::string output, imagery;
+    std::string output, imagery, objects;
     std::uint32_t leafTriangles = terrain::BakeOptions{}.trianglesPerNode;
     bool keepLines = false, keepTexture = false;
     double postM = 0, memoryMb = terrain::BakeOptions{}.memory.value();
@@ -128,6 +129,12 @@ void addTerrain(CLI::App& app, int& exitCode) {
   makeBake->add_flag("--ignore-checksums", bake->ignoreChecksums,
                      "Read DTED whose profiles do not agree with their checksums, or have none");
   makeBake->add_option("--imagery", bake->imagery, "Georeferenced image to drape, or a folder of them");
+  makeBake->add_option("--objects", bake->objects,
+                       "What stands on the ground: a table with columns model, latitude_deg, longitude_deg, "
+                       "and if wanted height_m (empty: on the ground), heading_deg and scale; models are "
+                       "files beside it: " +
+                           models::modelFormats() +
+                           ", in metres, z up (.ac, as FlightGear writes it, and .obj: y up)");
   makeBake
       ->add_option("--leaf-triangles", bake->leafTriangles,
                    "Most triangles a leaf of the static levels of detail holds (scenery)")
@@ -164,6 +171,10 @@ void addTerrain(CLI::App& app, int& exitCode) {
     options.sources.assign(bake->sources.begin(), bake->sources.end());
     options.output = bake->output;
     if (!bake->imagery.empty()) options.imagery = bake->imagery;
+    if (!bake->objects.empty()) {
+      options.objects = bake->objects;
+      options.readModel = models::readModel;
+    }
     if (!bake->heightUnit.empty()) options.reading.heightUnit = terrain::metresPerUnit(bake->heightUnit);
     options.reading.ignoreChecksums = bake->ignoreChecksums;
     options.trianglesPerNode = bake->leafTriangles;

@@ -8,10 +8,12 @@
 
 #include "commands.h"
 #include "trimtab/terrain/format/level_report.h"
+#include "trimtab/terrain/format/object_file.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/scenery/import.h"
 #include "trimtab/terrain/scenery/scenery.h"
 #include "trimtab/terrain/static_lod/static_lod.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::cli {
 
@@ -44,6 +46,35 @@ Json toJson(const terrain::StaticLodTerrain& trees) {
           {"repeated", counts.repeated},
           {"folded", counts.folded},
           {"bytes", counts.bytes}};
+}
+
+Json toJson(const terrain::ObjectTerrain& objects) {
+  const terrain::ObjectCounts counts = terrain::countObjects(objects);
+  const ObjectIndex& index = objects.index;
+  std::vector<std::size_t> placed(index.models.size());
+  for (const ObjectInstance& instance : index.instances) ++placed[instance.model];
+  Json models = Json::array();
+  for (std::size_t m = 0; m < index.models.size(); ++m) {
+    Json triangles = Json::array(), errors = Json::array();
+    for (std::uint32_t i = 0; i < index.models[m].levels; ++i) {
+      const ObjectIndex::Level& level = index.levels[index.models[m].firstLevel + i];
+      triangles.push_back(level.triangles);
+      errors.push_back(level.errorM);
+    }
+    models.push_back({{"name", objects.names[m]},
+                      {"instances", placed[m]},
+                      {"radius_m", index.models[m].radiusM},
+                      {"triangles", triangles},
+                      {"error_m", errors}});
+  }
+  return {{"instances", counts.instances},
+          {"cells", counts.cells},
+          {"levels", counts.levels},
+          {"triangles", counts.triangles},
+          {"finest_triangles", counts.finestTriangles},
+          {"coarsest_triangles", counts.coarsestTriangles},
+          {"textures", counts.textures},
+          {"models", models}};
 }
 
 Json patchLevels(const terrain::PatchTerrain& patches) {
@@ -90,6 +121,7 @@ Json toJson(const terrain::Database& database) {
   if (const auto patches = database.patches()) json["patches"] = patchLevels(*patches);
   if (i.scenery) json["scenery"] = toJson(*i.scenery);
   if (const auto trees = database.staticLod()) json["static_lod"] = toJson(*trees);
+  if (const auto objects = database.objects()) json["objects"] = toJson(*objects);
   return json;
 }
 
@@ -152,6 +184,14 @@ void printInfo(const terrain::Database& database, bool json) {
   for (const auto& level : all["levels"])
     std::cout << "level " << level["level"] << ": " << level["columns"] << " x " << level["rows"]
               << " tiles, error " << level["error_m"].get<double>() << " m\n";
+  if (all.contains("objects"))
+    for (const auto& model : all["objects"]["models"]) {
+      std::cout << "model " << model["name"].get<std::string>() << ": " << model["instances"] << " placed;";
+      for (std::size_t i = 0; i < model["triangles"].size(); ++i)
+        std::cout << (i > 0 ? "," : "") << ' ' << model["triangles"][i] << " triangles to "
+                  << numberText(model["error_m"][i].get<double>(), 3) << " m";
+      std::cout << '\n';
+    }
   if (!all.contains("patches")) return;
   // A space stands before every column, however wide its numbers are: errors of the whole earth's coarsest
   // patches are thousands of kilometres.

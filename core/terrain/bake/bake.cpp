@@ -8,12 +8,14 @@
 
 #include "ground.h"
 #include "heights.h"
-#include "mapped_heights.h"
+#include "objects.h"
 #include "patches.h"
 #include "source.h"
 #include "stages.h"
+#include "tiles.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/format/object_file.h"
 #include "trimtab/terrain/format/patch_layout.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/format/store.h"
@@ -121,8 +123,14 @@ class Job {
     if (auto may = mayTakePlace(); !may) return may;
     const auto files = sourceFiles(options_.sources);
     if (!files) return files.findings();
-    recipe_ = recipeOf(options_, *files);
-    auto work = WorkFolder::open(output_, stampedRecipe(options_, *files), use);
+    if (options_.objects) {
+      auto objects = readObjectSources(options_, memory_);
+      if (!objects) return objects.findings();
+      keep(objects.findings());
+      objects_ = std::move(objects).value();
+    }
+    recipe_ = recipeOf(options_, *files, objects_);
+    auto work = WorkFolder::open(output_, stampedRecipe(options_, *files, objects_), use);
     if (!work) return work.findings();
     keep(work.findings());
     work_ = std::move(work).value();
@@ -179,6 +187,7 @@ class Job {
       ground.triangles =
           &materials_.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
     ground_ = std::make_unique<GroundBake>(*work_, std::move(ground));
+    tiles_ = std::make_unique<TileBake>(*work_, heights_.posts, *geometry_);
     return Done{};
   }
 
@@ -220,7 +229,7 @@ class Job {
     };
     auto made = std::async(beside ? std::launch::async : std::launch::deferred, [&]() -> Result<Done> {
       auto done = ground_->make(part, parts, other);
-      if (done && beside && whole && tileBytes() <= memory_ / 4) done = measureTiles(other);
+      if (done && beside && whole && tileBytes() <= memory_ / 4) done = tiles_->measure(other);
       failed = !done;
       return done;
     });
@@ -256,20 +265,6 @@ class Job {
                       images = (options_.imagery ? 1 : 0) + (source_->tiles ? 1 : 0);
     return posts * 4 / 3 + images * posts * 4;
   }
-  Result<Done> measureTiles(const Progress& progress) {
-    const PostGrid& posts = heights_.posts;
-    if (posts.size() > kMostTiledPosts || tileLevels_) return Done{};
-    const auto heights = MappedHeights::open(work_->database() / kHeightsName, posts.size());
-    if (!heights) return heights.findings();
-    TerrainIndex index = makeLevels(posts);
-    CellSlopes slopes(index);
-    if (!measureLevels(posts, (*heights).span(), *geometry_, index, slopes,
-                       [&](double f) { return progress(f, "measuring levels"); }))
-      return cancelled("measuring levels");
-    tileLevels_ = {std::move(index), std::move(slopes)};
-    return Done{};
-  }
-
   /// Nodes, slopes and colours of tiles, where the grid has them.
   Result<Done> makeTiles() {
     const PostGrid& posts = heights_.posts;
@@ -280,12 +275,8 @@ class Job {
                            std::to_string(memory_ / 1000000) + " MB: left out, patches are drawn"});
       return Done{};
     }
-    if (auto done = measureTiles(stage(Stage::tiles, 0, 0.7)); !done) return done;
-    const auto& [index, slopes] = *tileLevels_;
-    if (auto done = put(kNodesName, nodeNumbers(index)); !done) return done;
-    if (auto done = put(kSlopesName, slopes.cells); !done) return done;
-    if (auto done = put(kConesName, index.cones); !done) return done;
-    tileLevels_.reset();
+    if (auto done = tiles_->measure(stage(Stage::tiles, 0, 0.7)); !done) return done;
+    if (auto done = put(tiles_->write()); !done) return done;
     auto colours = source_->image(stage(Stage::tiles, 0.7, 0.85));
     if (!colours) return colours.findings();
     std::vector<std::uint8_t> image = std::move(colours).value();
@@ -296,22 +287,12 @@ class Job {
     }
     if (image.empty()) return Done{};
     hasImage_ = true;
-    CheckedRows::Sums rows(std::size_t{posts.columns} * 4);
-    rows.add(std::as_bytes(std::span(image)));
-    const auto file =
-        writeFile(work_->database(), kImageName, {reinterpret_cast<const char*>(image.data()), image.size()});
-    if (!file) return file.findings();
-    if (auto done = put(kImageSumsName, rows.finish()); !done) return done;
-    files_.push_back({kImageName, image.size(), files_.back().sum});
-    return Done{};
+    return put(tiles_->writeImage(image));
   }
 
-  template <class T>
-  Result<Done> put(const char* name, const std::vector<T>& values) {
-    const auto file = writeFile(work_->database(), name,
-                                {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
-    if (!file) return file.findings();
-    files_.push_back(*file);
+  Result<Done> put(const Result<std::vector<FileEntry>>& files) {
+    if (!files) return files.findings();
+    files_.insert(files_.end(), files->begin(), files->end());
     return Done{};
   }
   Result<Done> putPages(const char* name) {
@@ -352,6 +333,21 @@ class Job {
     return Done{};
   }
 
+  Result<Done> makeObjects() {
+    if (!objects_) return Done{};
+    const auto objects = bakeObjects(*objects_, *file_, geometry_->frame(), stage(Stage::objects));
+    objects_.reset();
+    if (!objects) return objects.findings();
+    keep(objects.findings());
+    if (auto read = allRead(); !read) return read;
+    const fs::path file = work_->database() / kObjectsName;
+    const auto sum = writeObjects(file, *objects);
+    if (!sum) return sum.findings();
+    std::error_code error;
+    files_.push_back({kObjectsName, fs::file_size(file, error), *sum});
+    return Done{};
+  }
+
   Result<Done> finish(bool join) {
     std::error_code error;
     if (auto cleared = kept(work_->clearDatabase()); !cleared) return cleared;
@@ -371,6 +367,7 @@ class Job {
     if (!sources) return sources.findings();
     if (*sources) files_.push_back(**sources);
     if (auto done = makeTiles(); !done) return done;
+    if (auto done = makeObjects(); !done) return done;
     // Last: these take scenery's tiles for themselves.
     if (auto done = makeTrees(); !done) return done;
 
@@ -379,7 +376,8 @@ class Job {
     if (options_.sources.size() > 1)
       info.name += " and " + std::to_string(options_.sources.size() - 1) + " more";
     info.source = joinedNames(options_.sources);
-    if (options_.imagery) info.source += ", " + options_.imagery->string();
+    for (const auto& also : {options_.imagery, options_.objects})
+      if (also) info.source += ", " + also->string();
     info.lowest = Metres{heights_.lowest};
     info.highest = Metres{heights_.highest};
     info.voidsFilled = heights_.voids;
@@ -420,10 +418,11 @@ class Job {
   std::unique_ptr<PatchBake> patches_;
   std::optional<SceneryGround> materials_;  ///< where the source is scenery
   std::unique_ptr<GroundBake> ground_;
-  std::optional<std::pair<TerrainIndex, CellSlopes>> tileLevels_;  ///< once they are measured
+  std::unique_ptr<TileBake> tiles_;
   std::vector<FileEntry> files_;
   std::vector<fs::path> images_;  ///< of the imagery, those over the terrain
   std::optional<std::uint32_t> trianglesPerNode_;
+  std::optional<ObjectSources> objects_;  ///< until they are placed
 };
 
 }  // namespace

@@ -32,7 +32,8 @@ constexpr const char* kArithmetic = "arithmetic";
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-Json recipeJson(const BakeOptions& options, const std::vector<fs::path>& files) {
+Json recipeJson(const BakeOptions& options, const std::vector<fs::path>& files,
+                const std::optional<ObjectSources>& objects) {
   Json recipe = {{"files", Json::array()}};
   for (const fs::path& file : files) {
     std::error_code error;
@@ -47,6 +48,14 @@ Json recipeJson(const BakeOptions& options, const std::vector<fs::path>& files) 
   if (options.reading.ignoreChecksums) recipe["ignore_checksums"] = true;
   if (options.keepLines) recipe["keep_lines"] = true;
   if (options.keepTexture) recipe["keep_texture"] = true;
+  if (objects) {
+    recipe["objects"] = {{"placements", objects->file.filename().string()},
+                         {"fnv64", hexadecimal(objects->sum)},
+                         {"models", Json::array()}};
+    for (std::size_t i = 0; i < objects->models.size(); ++i)
+      recipe["objects"]["models"].push_back(
+          {{"name", objects->list.models[i]}, {"fnv64", hexadecimal(objects->modelSums[i])}});
+  }
   return recipe;
 }
 
@@ -194,12 +203,14 @@ std::vector<std::string> stampsOf(std::span<const fs::path> files) {
   return stamps;
 }
 
-std::string recipeOf(const BakeOptions& options, const std::vector<fs::path>& files) {
-  return dump(recipeJson(options, files));
+std::string recipeOf(const BakeOptions& options, const std::vector<fs::path>& files,
+                     const std::optional<ObjectSources>& objects) {
+  return dump(recipeJson(options, files, objects));
 }
 
-std::string stampedRecipe(const BakeOptions& options, const std::vector<fs::path>& files) {
-  Json recipe = recipeJson(options, files);
+std::string stampedRecipe(const BakeOptions& options, const std::vector<fs::path>& files,
+                          const std::optional<ObjectSources>& objects) {
+  Json recipe = recipeJson(options, files, objects);
   recipe["format"] = kFormatVersion;
   recipe["builder"] = kBuilderVersion;
   recipe[kArithmetic] = arithmeticOfThisMachine();

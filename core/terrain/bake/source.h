@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "objects.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/elevation/source.h"
 #include "trimtab/terrain/format/database.h"
@@ -42,12 +43,14 @@ Result<std::unique_ptr<BakeSource>> readSource(const BakeOptions& options, std::
 /// Lists every file of the sources; folders are searched.
 Result<std::vector<std::filesystem::path>> sourceFiles(const std::vector<std::filesystem::path>& sources);
 
-/// Returns a JSON object of all that determines a database's bytes: source files, and the options that
-/// matter.
-std::string recipeOf(const BakeOptions& options, const std::vector<std::filesystem::path>& files);
+/// Returns a JSON object of all that determines a database's bytes: source files, the options that matter,
+/// and the checksums of placements and models if there are objects.
+std::string recipeOf(const BakeOptions& options, const std::vector<std::filesystem::path>& files,
+                     const std::optional<ObjectSources>& objects = {});
 /// Returns recipeOf with the stamps of the files and the machine's arithmetic. A bake continues unfinished
 /// work only if its stamped recipe is the same.
-std::string stampedRecipe(const BakeOptions& options, const std::vector<std::filesystem::path>& files);
+std::string stampedRecipe(const BakeOptions& options, const std::vector<std::filesystem::path>& files,
+                          const std::optional<ObjectSources>& objects = {});
 /// Tells whether two stamped recipes differ in the machine's arithmetic alone.
 bool sameButForArithmetic(const std::string& stampedRecipe, const std::string& other);
 /// Returns path, size and time of each file and of every file that GDAL reads with it, such as georeferences,

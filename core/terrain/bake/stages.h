@@ -10,12 +10,12 @@
 namespace trimtab::terrain {
 
 /// The stages of a bake, in the order in which they end.
-enum class Stage : std::size_t { source, heights, scenery, patches, ground, tiles, trees, writing };
+enum class Stage : std::size_t { source, heights, scenery, patches, ground, tiles, objects, trees, writing };
 
 /// What each stage takes of a bake's time, in hundredths of the whole. Trees take most, where there are any.
-using StageShares = std::array<int, 8>;
-inline constexpr StageShares kElevationShares{20, 10, 0, 40, 20, 8, 0, 2};
-inline constexpr StageShares kSceneryShares{10, 3, 2, 5, 5, 10, 63, 2};
+using StageShares = std::array<int, 9>;
+inline constexpr StageShares kElevationShares{20, 10, 0, 39, 19, 8, 2, 0, 2};
+inline constexpr StageShares kSceneryShares{10, 3, 2, 5, 5, 9, 2, 62, 2};
 
 /// Returns the progress of one stage, or of its part `from`..`to`, as a part of the whole bake's. `whole` may
 /// be empty, and must outlive what is returned.

@@ -1,106 +1,27 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 
-#include "trimtab/preset/file_io.h"
-#include "trimtab/preset/preset.h"
+#include "array_file.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
-#include "trimtab/terrain/format/store.h"
 
-/// The file holds magic, version, number of bytes that follow, their checksum; then numbers as they are in
-/// memory, and arrays with their length in front. Version 2 added borderErrorM: without it the LOD cut cannot
-/// see that a node has lost a runway. Files of version 1 are refused and have to be baked again. Version 3
-/// adds texture coordinates to each tile; it is written only if a tile has some.
+/// Version 2 added borderErrorM: without it the LOD cut cannot see that a node has lost a runway. Files of
+/// version 1 are refused and have to be baked again. Version 3 adds texture coordinates to each tile; it is
+/// written only if a tile has some.
 namespace trimtab::terrain {
+
+template <>
+inline constexpr bool kFillsItsBytes<StaticLodVertex> = sizeof(StaticLodVertex) == 20;
 
 namespace {
 
 namespace fs = std::filesystem;
 
-static_assert(std::endian::native == std::endian::little, "the file is little-endian");
-
-constexpr std::array<char, 8> kMagic{'T', 'R', 'I', 'M', 'T', 'R', 'E', 'E'};
 constexpr std::uint32_t kVersion = 2, kTexturedVersion = 3;
-constexpr std::size_t kHeaderBytes = 8 + 4 + 8 + 8;
 
-Finding wrong(const fs::path& file, std::string key, std::string expected, std::string found) {
-  return {Severity::error, file.string(), std::move(key), std::move(expected), std::move(found)};
-}
+constexpr ArrayFileKind kKind{
+    {'T', 'R', 'I', 'M', 'T', 'R', 'E', 'E'}, "static levels of detail", kVersion, kTexturedVersion};
 
-class Writer {
- public:
-  template <class T>
-  void number(T value) {
-    static_assert(std::is_arithmetic_v<T>);
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  template <class T>
-  void array(const std::vector<T>& values) {
-    static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, float> ||
-                  std::is_same_v<T, Box> || std::is_same_v<T, std::array<float, 2>> ||
-                  std::is_same_v<T, StaticLodVertex>);
-    number(std::uint64_t{values.size()});
-    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-  }
-  void text(const std::string& value) {
-    number(std::uint64_t{value.size()});
-    bytes += value;
-  }
-
-  std::string bytes;
-};
-
-/// Stops at the first number or array that would reach past the end; then everything reads as nothing.
-class Reader {
- public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-  bool failed() const { return failed_; }
-  void refuse() { failed_ = true; }
-  bool atEnd() const { return at_ == bytes_.size(); }
-
-  template <class T>
-  void number(T& value) {
-    if (take(sizeof value)) std::memcpy(&value, bytes_.data() + at_ - sizeof value, sizeof value);
-  }
-  template <class T>
-  void array(std::vector<T>& values) {
-    const std::uint64_t count = length(sizeof(T));
-    values.resize(count);
-    if (count > 0) std::memcpy(values.data(), bytes_.data() + at_, count * sizeof(T));
-    at_ += count * sizeof(T);
-  }
-  void text(std::string& value) {
-    const std::uint64_t count = length(1);
-    value.assign(bytes_.data() + at_, count);
-    at_ += count;
-  }
-  /// Reads how many things of at least `each` bytes follow; never more than the file can hold.
-  std::uint64_t length(std::size_t each) {
-    std::uint64_t count = 0;
-    number(count);
-    if (count > (bytes_.size() - at_) / each) failed_ = true;
-    return failed_ ? 0 : count;
-  }
-
- private:
-  bool take(std::size_t size) {
-    if (failed_ || size > bytes_.size() - at_) return !(failed_ = true);
-    at_ += size;
-    return true;
-  }
-  std::string_view bytes_;
-  std::size_t at_ = 0;
-  bool failed_ = false;
-};
-
-bool isTextured(const StaticLodTerrain& terrain) {
-  return std::any_of(terrain.tiles.begin(), terrain.tiles.end(),
-                     [](const StaticLodTile& tile) { return !tile.texture.empty(); });
-}
-
-void write(Writer& out, const StaticLodTerrain& terrain, bool textured) {
+void write(ArrayWriter& out, const StaticLodTerrain& terrain, bool textured) {
   const StaticLodIndex& index = terrain.index;
   const GeodeticPosition& origin = index.frame.origin();
   out.number(terrain.trianglesPerNode);
@@ -138,7 +59,7 @@ void write(Writer& out, const StaticLodTerrain& terrain, bool textured) {
   }
 }
 
-void read(Reader& in, StaticLodTerrain& terrain, bool textured) {
+void read(ArrayReader& in, StaticLodTerrain& terrain, bool textured) {
   constexpr std::size_t kNodeBytes = 22, kLeastTileBytes = 52;
   StaticLodIndex& index = terrain.index;
   in.number(terrain.trianglesPerNode);
@@ -249,59 +170,22 @@ std::string faultOf(const StaticLodTerrain& terrain) {
 }  // namespace
 
 Result<Done> writeStaticLod(const fs::path& file, const StaticLodTerrain& terrain) {
-  Writer body;
-  // The header is put in front of the body in one piece, so that there is no second copy of it.
-  body.bytes.assign(kHeaderBytes, '\0');
-  const bool textured = isTextured(terrain);
-  write(body, terrain, textured);
-  const std::string_view behind = std::string_view(body.bytes).substr(kHeaderBytes);
-  Writer header;
-  header.bytes.assign(kMagic.data(), kMagic.size());
-  header.number(textured ? kTexturedVersion : kVersion);
-  header.number(std::uint64_t{behind.size()});
-  header.number(checksum(behind));
-  std::copy(header.bytes.begin(), header.bytes.end(), body.bytes.begin());
-  return writeAtomically(file, body.bytes);
+  ArrayWriter out;
+  const bool textured = hasTexture(terrain);
+  write(out, terrain, textured);
+  const auto written = writeArrayFile(file, kKind, textured ? kTexturedVersion : kVersion, std::move(out));
+  if (!written) return written.findings();
+  return Done{};
 }
 
 Result<std::shared_ptr<const StaticLodTerrain>> readStaticLod(const fs::path& file) {
-  if (const auto data = checkIsData(file); !data) return data.findings();
-  std::error_code error;
-  const std::uint64_t size = fs::file_size(file, error);
-  if (error) return wrong(file, "", "a readable file", error.message());
-  std::ifstream in(file, std::ios::binary);
-  std::array<char, kHeaderBytes> header{};
-  in.read(header.data(), kHeaderBytes);
-  if (in.gcount() != kHeaderBytes || std::memcmp(header.data(), kMagic.data(), kMagic.size()) != 0)
-    return wrong(file, "", "static levels of detail (TRIMTREE)",
-                 "another file of " + std::to_string(size) + " bytes");
-  std::uint32_t version;
-  std::uint64_t bodySize, sum;
-  std::memcpy(&version, &header[8], 4);
-  std::memcpy(&bodySize, &header[12], 8);
-  std::memcpy(&sum, &header[20], 8);
-  if (version != kVersion && version != kTexturedVersion)
-    return wrong(
-        file, "version",
-        std::to_string(kVersion) + " or " + std::to_string(kTexturedVersion) + " (bake the sources again)",
-        std::to_string(version));
-  if (bodySize != size - kHeaderBytes)
-    return wrong(file, "size", std::to_string(bodySize) + " bytes after the header",
-                 std::to_string(size - kHeaderBytes) + " bytes");
-  std::string body(bodySize, '\0');
-  in.read(body.data(), static_cast<std::streamsize>(bodySize));
-  if (!in) return wrong(file, "", "a readable file", std::strerror(errno));
-  if (const std::uint64_t found = checksum(body); found != sum)
-    return wrong(file, "checksum", hexadecimal(sum), hexadecimal(found));
-
+  const auto body = readArrayFile(file, kKind);
+  if (!body) return body.findings();
   auto terrain = std::make_shared<StaticLodTerrain>();
-  Reader reader(body);
-  read(reader, *terrain, version == kTexturedVersion);
-  if (reader.failed() || !reader.atEnd())
-    return wrong(file, "", "arrays that end with the file",
-                 reader.failed() ? "one past its end" : "bytes left over");
-  if (const std::string fault = faultOf(*terrain); !fault.empty())
-    return wrong(file, fault, "numbers that agree with each other", "some that do not");
+  ArrayReader reader(body->bytes);
+  read(reader, *terrain, body->version == kTexturedVersion);
+  if (Findings end = endFindings(file, reader); !end.empty()) return end;
+  if (std::string fault = faultOf(*terrain); !fault.empty()) return faultFinding(file, std::move(fault));
   countStaticLod(*terrain);
   return std::shared_ptr<const StaticLodTerrain>(std::move(terrain));
 }

@@ -10,6 +10,7 @@
 
 #include "manifest_checksum.h"
 #include "trimtab/preset/file_io.h"
+#include "trimtab/terrain/format/object_file.h"
 #include "trimtab/terrain/format/post_sources.h"
 
 namespace trimtab::terrain {
@@ -45,9 +46,9 @@ bool holdsNothingElse(const std::filesystem::path& folder) {
 }  // namespace
 
 bool isDatabaseFile(std::string_view name) {
-  constexpr std::array<std::string_view, 12> kNames = {
-      kManifestName, kHeightsName, kHeightSumsName, kImageName,  kImageSumsName, kNodesName,
-      kSlopesName,   kConesName,   kPatchesName,    kGroundName, kStaticLodName, kSourcesName};
+  constexpr std::array<std::string_view, 13> kNames = {
+      kManifestName, kHeightsName, kHeightSumsName, kImageName,     kImageSumsName, kNodesName,  kSlopesName,
+      kConesName,    kPatchesName, kGroundName,     kStaticLodName, kSourcesName,   kObjectsName};
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
 }
 

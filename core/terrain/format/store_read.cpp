@@ -8,6 +8,7 @@
 #include "manifest_checksum.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/format/ground_pyramid.h"
+#include "trimtab/terrain/format/object_file.h"
 #include "trimtab/terrain/format/patch_store.h"
 #include "trimtab/terrain/format/post_sources.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
@@ -84,6 +85,23 @@ std::shared_ptr<const StaticLodTerrain> readTrees(const fs::path& file, const Js
   if (!((*trees)->index.frame.origin() == PostGeometry(posts).frame().origin()))
     findings.push_back(wrong(file, "frame", "that of the heights", "another one"));
   return *trees;
+}
+
+/// Reads the objects, if they are those of this manifest and of its terrain.
+std::shared_ptr<const ObjectTerrain> readListedObjects(const fs::path& file, const Json& entry,
+                                                       const PostGrid& posts, Findings& findings) {
+  const Json stated = entry.is_object() ? entry.value("fnv64", Json()) : Json();
+  const std::string sum = stated.is_string() ? stated.get<std::string>() : "";
+  if (sum.empty()) {
+    findings.push_back(wrong(file, "checksum", "one in the manifest", stated.dump()));
+    return {};
+  }
+  const auto objects = withinMemory(file, [&] { return readObjects(file, sum); });
+  findings.insert(findings.end(), objects.findings().begin(), objects.findings().end());
+  if (!objects) return {};
+  if (!((*objects)->index.frame.origin() == PostGeometry(posts).frame().origin()))
+    findings.push_back(wrong(file, "frame", "that of the heights", "another one"));
+  return *objects;
 }
 
 /// The files of a manifest; what is wrong with them, and what they take.
@@ -240,7 +258,7 @@ Result<Contents> readContents(const fs::path& folder) {
   const bool old = version == 1;
   Files files{folder, manifest.value("files", Json::object())};
   files.bytes = text->size();
-  Contents contents{info, posts, {}, {}, {}, CellSlopes(TerrainIndex{}), {}, {}, {}, {}};
+  Contents contents{info, posts, {}, {}, {}, CellSlopes(TerrainIndex{}), {}, {}, {}, {}, {}};
   const auto lowest = static_cast<float>(info.lowest.value()),
              highest = static_cast<float>(info.highest.value());
   contents.heights =
@@ -268,6 +286,13 @@ Result<Contents> readContents(const fs::path& folder) {
     contents.staticLod = readTrees(folder / kStaticLodName, manifest["static_lod"], posts, files.findings);
     std::error_code error;
     const std::uint64_t size = fs::file_size(folder / kStaticLodName, error);
+    files.bytes += error ? 0 : size;
+  }
+  if (files.entries.is_object() && files.entries.contains(kObjectsName)) {
+    contents.objects =
+        readListedObjects(folder / kObjectsName, files.entries[kObjectsName], posts, files.findings);
+    std::error_code error;
+    const std::uint64_t size = fs::file_size(folder / kObjectsName, error);
     files.bytes += error ? 0 : size;
   }
   if (!old) {

@@ -6,6 +6,7 @@
 #include "tiled_database.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/format/database.h"
+#include "trimtab/terrain/format/object_file.h"
 #include "trimtab/terrain/format/post_sources.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/format/store.h"
@@ -40,6 +41,7 @@ class TiledDatabase final : public Database {
   std::shared_ptr<const StaticLodTerrain> staticLod() const override { return contents_.staticLod; }
   std::shared_ptr<const PatchTerrain> patches() const override { return contents_.patches; }
   std::shared_ptr<const GroundPyramid> ground() const override { return contents_.ground; }
+  std::shared_ptr<const ObjectTerrain> objects() const override { return contents_.objects; }
   Findings damage() const override;
   Findings checkAll() const override;
 
@@ -248,6 +250,8 @@ Findings TiledDatabase::checkAll() const {
   Findings findings = rowDamage();
   for (const auto& pages : contents_.pageFiles) append(findings, pages->checkAll().findings());
   append(findings, readPostSources(folder_).findings());
+  // Objects are in memory since the database was opened: this is about their file.
+  if (contents_.objects) append(findings, readObjects(folder_ / kObjectsName).findings());
   return findings;
 }
 

@@ -35,6 +35,43 @@ TEST_F(TerrainCommand, makesBakesAndDescribesASample) {
   EXPECT_NE(test::run(cli("info " + at("db"))).out.find("level 0"), std::string::npos);
 }
 
+TEST_F(TerrainCommand, bakesObjectsOfFilesBesideTheirList) {
+  ASSERT_EQ(test::run(cli("sample -o " + at("s.tif") + " --size-km 10 --post-m 100")).exitCode, 0);
+  const auto plain = test::run(cli("bake " + at("s.tif") + " -o " + at("db")));
+  ASSERT_EQ(plain.exitCode, 0) << plain.err;
+  const auto before = nlohmann::json::parse(test::run(cli("info " + at("db") + " --json")).out);
+  EXPECT_FALSE(before.contains("objects"));
+  const double latitude = (before["south_deg"].get<double>() + before["north_deg"].get<double>()) / 2,
+               longitude = (before["west_deg"].get<double>() + before["east_deg"].get<double>()) / 2;
+  std::filesystem::create_directories(dir_ / "models");
+  test::writeFile(dir_ / "models/hut.obj",
+                  "v -3 0 -3\nv 3 0 -3\nv 3 0 3\nv -3 0 3\nv 0 5 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+  std::string list = "model,latitude_deg,longitude_deg,heading_deg,scale\n";
+  for (int i = 0; i < 200; ++i)
+    list += "models/hut.obj," + std::to_string(latitude + 0.0001 * i) + "," + std::to_string(longitude) +
+            ",45,1\n";
+  test::writeFile(dir_ / "list.csv", list + "models/gone.ac,1,1,0,1\n" + "models/hut.obj,x,1,0,1\n");
+  const auto baked =
+      test::run(cli("bake " + at("s.tif") + " -o " + at("db") + " --objects " + at("list.csv")));
+  ASSERT_EQ(baked.exitCode, 0) << baked.err;
+  EXPECT_NE(baked.err.find("models/gone.ac: expected a model that can be used, found 1 row"),
+            std::string::npos)
+      << baked.err;
+  EXPECT_NE(baked.err.find("list.csv:203: latitude_deg"), std::string::npos) << baked.err;
+  EXPECT_NE(baked.out.find("model models/hut.obj: 200 placed; 4 triangles to 0 m"), std::string::npos)
+      << baked.out;
+  const auto json = nlohmann::json::parse(test::run(cli("info " + at("db") + " --json")).out);
+  EXPECT_EQ(json["objects"]["instances"], 200);
+  EXPECT_EQ(json["objects"]["finest_triangles"], 800);
+  EXPECT_EQ(json["objects"]["models"].size(), 1u);
+  EXPECT_EQ(json["objects"]["models"][0]["error_m"][0], 0);
+  EXPECT_EQ(test::run(cli("info " + at("db") + " --check")).exitCode, 0);
+  const auto refused =
+      test::run(cli("bake " + at("s.tif") + " -o " + at("db2") + " --objects " + at("none.csv")));
+  EXPECT_EQ(refused.exitCode, 1);
+  EXPECT_NE(refused.err.find("none.csv"), std::string::npos) << refused.err;
+}
+
 TEST_F(TerrainCommand, countryEndsBeforeThePoleAndMeetsItselfNowhere) {
   const std::string to = "country -o " + at("c.tif") + " --post-m 2000";
   for (const auto& [size, said] : {std::pair{" --rows 6000 --columns 33", "rows: expected at most 5924"},

@@ -43,8 +43,8 @@ struct ObjectIndex {
     std::uint32_t firstInstance = 0, instances = 0;  ///< of the whole subtree
     std::uint32_t end = 0;                           ///< the first cell that is not of this subtree
     float largestRadiusM = 0;                        ///< the greatest radius times scale of an instance
-    /// The greatest error times scale, metres, of a level that is not its model's coarsest. Where a rule
-    /// accepts more, every instance is drawn by its coarsest level.
+    /// The greatest error times scale, metres, of the coarsest level of an instance. Where a rule accepts as
+    /// much, every instance is drawn by its coarsest level.
     float coarsestFromM = 0;
 
     bool isLeaf(std::uint32_t number) const { return end == number + 1; }

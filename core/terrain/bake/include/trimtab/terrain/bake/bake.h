@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "trimtab/terrain/elevation/source.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/grid/progress.h"
+#include "trimtab/terrain/objects/source_model.h"
 #include "trimtab/units/quantity.h"
 
 /// Bakes elevation or FlightGear scenery to a terrain database (resources/docs/terrain-format.md).
@@ -17,8 +19,13 @@ namespace trimtab::terrain {
 struct BakeOptions {
   std::vector<std::filesystem::path> sources;    ///< elevation files, folders of them, or scenery
   std::optional<std::filesystem::path> imagery;  ///< a georeferenced image, or a folder of them
-  Reading reading;                               ///< how elevation files are read
-  std::uint32_t trianglesPerNode = 2000;         ///< of the static LOD, if a source is scenery
+  /// A list of where objects stand (trimtab/host/placement_list.h), which names the files of their models
+  /// relative to its own folder. Rows and models that cannot be used are left out, with warnings.
+  std::optional<std::filesystem::path> objects;
+  /// Reads the file of a model; `objects` needs it. app/models has one.
+  std::function<Result<SourceModel>(const std::filesystem::path&)> readModel;
+  Reading reading;                        ///< how elevation files are read
+  std::uint32_t trianglesPerNode = 2000;  ///< of the static LOD, if a source is scenery
   bool keepLines = false;    ///< the static LOD keeps roads, streams and shorelines while they cover a pixel
   bool keepTexture = false;  ///< the static LOD keeps the scenery's texture coordinates
   std::optional<Metres>

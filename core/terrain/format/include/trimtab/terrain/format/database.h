@@ -54,6 +54,7 @@ struct TerrainInfo {
   std::optional<SceneryCounts> scenery;  ///< unset if no source was scenery
 };
 
+struct ObjectTerrain;
 struct StaticLodTerrain;
 class GroundPyramid;
 class PatchTerrain;
@@ -62,9 +63,9 @@ struct ObjectTerrain;
 /// An open database. All functions are const and thread-safe.
 class Database : public GroundHeights {
  public:
-  /// Opens a folder. Reads the indices, the static LOD and the slopes of tiles (a byte per cell); heights,
-  /// colours and meshes are read when they are used. On failure returns findings with file, place, expected
-  /// and found.
+  /// Opens a folder. Reads the indices, the static LOD, the objects and the slopes of tiles (a byte per
+  /// cell); heights, colours and meshes are read when they are used. On failure returns findings with file,
+  /// place, expected and found.
   static Result<std::shared_ptr<const Database>> open(const std::filesystem::path& folder);
 
   virtual const TerrainInfo& info() const = 0;

@@ -50,6 +50,7 @@ struct Contents {
   std::shared_ptr<const StaticLodTerrain> staticLod;  ///< null if no source was scenery
   std::shared_ptr<const PatchTerrain> patches;        ///< null in version 1, as is `ground`
   std::shared_ptr<const GroundPyramid> ground;
+  std::shared_ptr<const ObjectTerrain> objects;            ///< null if nothing stands on the ground
   std::vector<std::shared_ptr<const PageFile>> pageFiles;  ///< the files of `patches` and `ground`
 };
 
@@ -60,7 +61,7 @@ std::uint64_t checksum(std::string_view bytes);
 std::string hexadecimal(std::uint64_t value);
 
 /// A file as the manifest lists it. `sum` is the checksum of its bytes; for rows whose checksums are in a
-/// file of their own, that of the latter; for a page file, the checksum in its header.
+/// file of their own, that of the latter; for a page file and for objects, the checksum in its header.
 struct FileEntry {
   std::string name;
   std::uint64_t bytes = 0;

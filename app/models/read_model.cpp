@@ -1,0 +1,75 @@
+#include "app/models/read_model.h"
+
+#include <osgDB/FileNameUtils>
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+
+#include <exception>
+#include <utility>
+
+#include "app/models/flattened.h"
+#include "app/models/watched_reads.h"
+#include "trimtab/preset/file_io.h"
+
+namespace trimtab::models {
+
+namespace {
+
+Finding unusable(const std::filesystem::path& file, std::string expected, std::string found) {
+  return {Severity::error, file.string(), "", std::move(expected), std::move(found)};
+}
+
+/// Turns y up to z up, about x.
+void turnUp(terrain::SourceMesh& mesh) {
+  for (terrain::SourceVertex& v : mesh.vertices)
+    for (auto* const a : {&v.position, &v.normal}) *a = {(*a)[0], -(*a)[2], (*a)[1]};
+}
+
+bool same(const terrain::SourceMesh& a, const terrain::SourceMesh& b) {
+  return terrain::checksumOf({"", {a}, {}}) == terrain::checksumOf({"", {b}, {}});
+}
+
+terrain::SourceModel modelOf(osg::Node& node, const std::filesystem::path& file) {
+  terrain::SourceModel model{file.string(), {}, {}};
+  TextureList textures;
+  constexpr std::size_t kMostLevels = 16;
+  for (const double distance : distancesOf(node)) {
+    terrain::SourceMesh mesh = flattened(node, distance, textures);
+    if (osgDB::getLowerCaseFileExtension(file.string()) == "ac") turnUp(mesh);
+    // Nothing is shown beyond the last range, nor before the first.
+    if (mesh.indices.empty() || (!model.levels.empty() && same(mesh, model.levels.back()))) continue;
+    model.levels.push_back(std::move(mesh));
+    if (model.levels.size() == kMostLevels) break;
+  }
+  if (model.levels.empty()) model.levels.emplace_back();
+  model.textures = textures.take();
+  return model;
+}
+
+}  // namespace
+
+Result<terrain::SourceModel> readModel(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    return unusable(file, "a model's file", error ? error.message() : "none");
+  if (const auto data = checkIsData(file); !data) return data.findings();
+  if (!isModelName(file.string())) return unusable(file, "a model (" + modelFormats() + ")", "another file");
+  if (osgDB::Registry::instance()->getReaderWriterForExtension(
+          osgDB::getLowerCaseFileExtension(file.string())) == nullptr)
+    return unusable(file, "OpenSceneGraph's plugin for such files", "none installed");
+  WatchedReads watch(file);
+  osg::ref_ptr<osg::Node> node;
+  try {
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
+    node = osgDB::readRefNodeFile(file.string(), options.get());
+    if (node) return Result<terrain::SourceModel>(modelOf(*node, file), watch.findings());
+  } catch (const std::exception& thrown) {
+    return unusable(file, "a model that can be read", thrown.what());
+  }
+  Findings findings = watch.findings();
+  findings.push_back(unusable(file, "a model that OpenSceneGraph can read", "another or a damaged file"));
+  return findings;
+}
+
+}  // namespace trimtab::models

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "trimtab/terrain/objects/source_model.h"
+#include "trimtab/units/result.h"
+
+namespace trimtab::models {
+
+/// Returns the endings of the files that readModel() reads, for help and messages.
+std::string modelFormats();
+
+/// Reads a model: .flt, .ive, .osgb, .osgt, .osg, .3ds, .obj, .ac, .dae, .ply or .stl. Axes are those of
+/// SourceModel, so z is up: in .ac, as FlightGear writes it, and in .obj y is up, and is turned; .dae says
+/// which is. Units are metres: what a file says of others is not read. Not for use by several threads at
+/// once.
+///
+/// Colours are those of vertices or of materials; only the texture of unit 0 is read. Findings of success
+/// name textures and references that are not there, and what OpenSceneGraph had to say.
+Result<terrain::SourceModel> readModel(const std::filesystem::path& file);
+
+}  // namespace trimtab::models

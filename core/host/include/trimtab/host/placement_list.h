@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trimtab/units/quantity.h"
+#include "trimtab/units/result.h"
+
+namespace trimtab {
+
+/// Where an object stands, WGS 84, and the line that says so, from 1.
+struct ListedPlacement {
+  Degrees latitude, longitude;
+  std::optional<Metres> height;  ///< of its origin above mean sea level; unset: on the ground
+  Degrees heading;               ///< true, clockwise from north
+  double scale = 1;
+  std::uint32_t model = 0;  ///< its number in PlacementList::models
+  std::uint32_t line = 0;
+};
+
+struct PlacementList {
+  std::vector<std::string> models;  ///< as the text names them, in the order of their first rows
+  std::vector<ListedPlacement> placements;
+};
+
+/// Limits of a row; the latitude and longitude are those of every place.
+struct PlacementLimits {
+  static constexpr double kHeightM = 20000;   ///< either way
+  static constexpr double kHeadingDeg = 360;  ///< either way
+  static constexpr double kLeastScale = 1e-3, kMostScale = 1e3;
+};
+
+/// Reads where objects stand from a delimited text with a header: `model`, `latitude_deg`, `longitude_deg`,
+/// and if wanted `height_m` (or `height_ft`), `heading_deg` and `scale`. Without the column, or where the
+/// cell is empty, an object stands on the ground, faces north and has scale 1. Other columns do not matter.
+/// `where` names the text in findings.
+///
+/// A row that cannot be used is left out, with a warning that names its line and what is wrong; the first
+/// FindingList::kMost of them, then their number. Refuses a table without the three columns, and one without
+/// any row that can be used.
+Result<PlacementList> readPlacementList(std::string_view text, const std::string& where);
+
+}  // namespace trimtab

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trimtab/frame/ground_heights.h"
+#include "trimtab/host/placement_list.h"
+#include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/format/object_terrain.h"
+#include "trimtab/terrain/grid/height_window.h"
+#include "trimtab/terrain/grid/progress.h"
+#include "trimtab/terrain/objects/source_model.h"
+
+namespace trimtab::terrain {
+
+/// What objects of a bake are made from: the placements, and the models that they name.
+struct ObjectSources {
+  std::filesystem::path file;  ///< of the placements
+  std::uint64_t sum = 0;       ///< checksum of their text
+  PlacementList list;
+  std::vector<std::optional<SourceModel>> models;  ///< one per name of the list; none if it cannot be read
+  std::vector<std::uint64_t> modelSums;            ///< of what each holds; 0 for none
+};
+
+/// Reads placements and models. A model that cannot be read is a warning; none at all is an error, and so is
+/// more of them than `memory` bytes hold while they are placed.
+Result<ObjectSources> readObjectSources(const BakeOptions& options, std::size_t memory);
+
+/// Makes levels of all models and puts them on the baked heights. Takes the models out of `sources`.
+Result<ObjectTerrain> bakeObjects(ObjectSources& sources, const HeightSource& heights,
+                                  const LocalFrame& frame, const Progress& progress);
+
+}  // namespace trimtab::terrain
