@@ -17,8 +17,8 @@ std::shared_ptr<const LoadIndex> loadIndexOf(const std::shared_ptr<const terrain
   if (const auto trees = database->staticLod())
     index->trees = std::shared_ptr<const StaticLodIndex>(trees, &trees->index);
   if (const auto objects = database->objects())
-    index->objects = std::make_shared<const ObjectLoad>(
-        std::shared_ptr<const ObjectIndex>(objects, &objects->index));
+    index->objects =
+        std::make_shared<const ObjectLoad>(std::shared_ptr<const ObjectIndex>(objects, &objects->index));
   return index;
 }
 
