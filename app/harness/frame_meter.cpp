@@ -68,11 +68,6 @@ std::vector<std::string> unknownSignals(const FlownFrame& frame) {
   return keys;
 }
 
-TraceCounts countsOf(const VisibleSet& visible) {
-  return {visible.triangles, visible.vertices,         visible.tiles.size(), visible.outsideFrustum,
-          visible.occluded,  visible.beyondVisibility, visible.backFacing};
-}
-
 /// Returns the request without the memory of earlier frames: what is drawn must not depend on what was drawn
 /// before, nor on where a run was resumed.
 FrameRequest alone(FrameRequest request) {
@@ -92,7 +87,7 @@ void measureImages(experiment::Stage& stage, scene::ErrorMeter& meter, const Pla
     stage.setTerrain(plan.terrain);
     if (!image.before.empty()) stage.draw(image.before.back());
     const FrameResult first = stage.draw(alone(image.request));
-    one.counts = countsOf(first.visible);
+    one.counts = countsOf(first);
     one.levers = image.request.levers.drawn;
     pageMs.push_back(first.cost.page);
     mean.add(one);

@@ -112,6 +112,8 @@ const std::vector<Quantity>& quantities() {
         count<&TraceCounts::culledBeyondVisibility>("culled_beyond_visibility", "tiles beyond the visibility",
                                                     false),
         count<&TraceCounts::culledBackFacing>("culled_back_facing", "tiles facing away", false),
+        count<&TraceCounts::objectsDrawn>("objects_drawn", "objects drawn"),
+        count<&TraceCounts::objectsOccluded>("objects_occluded", "objects hidden", false),
         error<&FrameError::wronglyCulledPixels>("wrongly_culled_px", "wrongly culled pixels", "px"),
         error<&FrameError::geometricMaxPx>("geometric_max_px", "geometric error, largest", "px"),
         error<&FrameError::geometricMeanPx>("geometric_mean_px", "geometric error, mean", "px"),

@@ -7,6 +7,7 @@
 
 #include "trace_cells.h"
 #include "trace_columns.h"
+#include "trimtab/frame/frame_result.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/units/text.h"
 
@@ -77,6 +78,13 @@ void readCells(const std::vector<std::string_view>& cells, const std::vector<std
 }
 
 }  // namespace
+
+TraceCounts countsOf(const FrameResult& drawn) {
+  const VisibleSet& visible = drawn.visible;
+  return {visible.triangles,      visible.vertices,    visible.tiles.size(),
+          visible.outsideFrustum, visible.occluded,    visible.beyondVisibility,
+          visible.backFacing,     drawn.objects.drawn, drawn.objects.occluded};
+}
 
 std::string_view toText(Scheme scheme) {
   switch (scheme) {

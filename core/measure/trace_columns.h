@@ -257,6 +257,8 @@ void forEachColumn(F& f, const Visit& visit) {
   visit("culled_occluded", Cell::frame, f.frame.counts.culledOccluded);
   visit("culled_beyond_visibility", Cell::frame, f.frame.counts.culledBeyondVisibility);
   visit("culled_back_facing", Cell::frame, f.frame.counts.culledBackFacing);
+  visit("objects_drawn", Cell::frame, f.frame.counts.objectsDrawn);
+  visit("objects_occluded", Cell::frame, f.frame.counts.objectsOccluded);
   auto& cost = f.frame.cost;
   for (const CostStage& stage : kCostStages) visit(stage.column, Cell::frame, cost.*stage.ms);
 }

@@ -42,11 +42,7 @@ void FrameBook::finished(const FrameResult& result, double now, double budgetMs)
   overBudget_ += lastCost_.total > budgetMs;
   latency_.finished(now);
   if (requestedRows_ > completeRows_) {
-    const VisibleSet& visible = result.visible;
-    rows_[requestedRows_ - 1].frame =
-        TraceFrame{{visible.triangles, visible.vertices, visible.tiles.size(), visible.outsideFrustum,
-                    visible.occluded, visible.beyondVisibility, visible.backFacing},
-                   lastCost_};
+    rows_[requestedRows_ - 1].frame = TraceFrame{countsOf(result), lastCost_};
     completeRows_ = requestedRows_;
   }
 }

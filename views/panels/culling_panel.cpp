@@ -78,13 +78,14 @@ CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
       served_(new QLabel),
       work_(new QLabel),
       picked_(new QLabel),
+      objects_(new QLabel),
       reasons_(new BarList),
       map_(new DepthMapInset),
       horizon_(new HorizonInset),
       overlayRow_(new QHBoxLayout),
       pick_(new QPushButton(tr("&Pick a node"))),
       throttle_(this, [this] { refresh(); }) {
-  for (QLabel* label : {served_, work_, picked_}) label->setWordWrap(true);
+  for (QLabel* label : {served_, work_, picked_, objects_}) label->setWordWrap(true);
   picked_->setTextFormat(Qt::RichText);
   picked_->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
   reasons_->setAccessibleName(tr("Nodes of the cut, by why they are drawn or not"));
@@ -104,6 +105,7 @@ CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
   layout->addWidget(picked_);
   layout->addWidget(new QLabel(tr("<b>Nodes of the cut, by reason</b>")));
   layout->addWidget(reasons_);
+  layout->addWidget(objects_);
   layout->addWidget(served_);
   layout->addWidget(horizon_, 2);
   layout->addWidget(map_, 3);
@@ -222,6 +224,12 @@ void CullingPanel::refresh() {
        bar(tr("occluded"), f.visible.occluded, {}, CullReason::occluded),
        bar(tr("beyond visibility"), f.visible.beyondVisibility, {}, CullReason::beyond_visibility),
        bar(tr("facing away"), f.visible.backFacing, {}, CullReason::back_facing)});
+  objects_->setVisible(f.objects.all() > 0);
+  objects_->setText(tr("Objects: %1 drawn (%2 triangles) of %3; %4 outside the frustum, %5 occluded, %6 too "
+                       "far, %7 too small.")
+                        .arg(count(f.objects.drawn), count(f.objects.triangles), count(f.objects.all()),
+                             count(f.objects.outsideFrustum), count(f.objects.occluded),
+                             count(f.objects.tooFar), count(f.objects.tooSmall)));
   work_->setText(tr("Cuts chosen %1, views %2; horizons built %3, moved along %4, left out %5; depth maps "
                     "by GL %6, by the processor %7, left out %8; frames in which nothing was worth its "
                     "cost %9.")

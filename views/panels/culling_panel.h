@@ -68,6 +68,7 @@ class CullingPanel : public QWidget {
 
   Draft& draft_;
   QLabel *served_, *work_, *picked_;
+  QLabel* objects_;  ///< hidden where nothing stands on the ground
   BarList* reasons_;
   DepthMapInset* map_;
   HorizonInset* horizon_;

@@ -22,9 +22,14 @@ struct TraceCounts {
   std::uint64_t triangles = 0, vertices = 0;
   std::uint64_t tilesDrawn = 0, culledFrustum = 0, culledOccluded = 0, culledBeyondVisibility = 0,
                 culledBackFacing = 0;
+  std::uint64_t objectsDrawn = 0, objectsOccluded = 0;  ///< instances of what stands on the ground
 
   friend bool operator==(const TraceCounts&, const TraceCounts&) = default;
 };
+
+struct FrameResult;
+/// Returns the counts of an image.
+TraceCounts countsOf(const FrameResult& drawn);
 
 /// The frame that showed a decision. A packet that another one overtook before the image has none.
 struct TraceFrame {

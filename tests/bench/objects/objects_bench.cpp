@@ -1,0 +1,242 @@
+#include <malloc.h>
+
+#include <unistd.h>
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "core/scene/gl/frame_buffer.h"
+#include "core/scene/gl/gl_api.h"
+#include "core/scene/objects/object_layer.h"
+#include "core/scene/passes/scene_programs.h"
+#include "object_peer.h"
+#include "object_world.h"
+#include "tests/bench/bench_scene.h"
+#include "tests/core/scene/objects/objects_on.h"
+#include "trimtab/culling/select_objects.h"
+#include "trimtab/terrain/format/patch_terrain.h"
+
+/// Objects on the sample: what leaving out the hidden ones is worth, and what plain OpenSceneGraph takes.
+namespace trimtab::bench {
+namespace {
+
+constexpr int kInstances = 200'000;
+
+FrameRequest proposed(FrameRequest r) {
+  r.cullingCase = CullingCase::proposed;
+  r.occlusion = OcclusionMethod::horizon;
+  r.levers.drawn.occlusion = OcclusionResolution{640, 480};
+  return r;
+}
+
+/// Returns places within 7 km of the terrain's middle that have ground 120 m higher within 1.5 km (`valley`),
+/// or any.
+std::vector<GeodeticPosition> placesOver(const terrain::Database& ground, std::size_t count, bool valley) {
+  const FrameRequest middle;
+  const terrain::TerrainInfo& info = ground.info();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<GeodeticPosition> places;
+  for (int tries = 0; places.size() < count && tries < 100000; ++tries) {
+    GeodeticPosition p{Degrees{0.5 * (info.southWest.latitude.value() + info.northEast.latitude.value()) +
+                               0.06 * unit(random)},
+                       Degrees{0.5 * (info.southWest.longitude.value() + info.northEast.longitude.value()) +
+                               0.07 * unit(random)},
+                       Metres{0}};
+    const auto here = ground.heightAt(p.latitude, p.longitude);
+    const auto high = ground.highestWithin(p.latitude, p.longitude, Metres{1500});
+    if (!here || !high || (valley && high->value() - here->value() < 120)) continue;
+    p.height = *here;
+    places.push_back(p);
+  }
+  return places;
+}
+
+/// Proposed beside frustum culling in flight at 200 kt, by place.
+void hiddenRows(Report& report, const std::shared_ptr<const terrain::Database>& world) {
+  BenchScene scene(world);
+  if (!scene.ready()) return;
+  struct Height {
+    const char* id;
+    double aboveFt;
+    bool valley;
+    double goal;
+  };
+  for (const Height height :
+       {Height{"valley_300ft", 300, true, 0.5}, Height{"any_300ft", 300, false, 1.02},
+        Height{"any_2000ft", 2000, false, 0.7}, Height{"any_8000ft", 8000, false, 1.02}}) {
+    const auto places = placesOver(*world, report.quick() ? 3 : 12, height.valley);
+    Pairs all;
+    double worst = 0, hidden = 0, inView = 0;
+    for (std::size_t place = 0; place < places.size(); ++place) {
+      FrameRequest r = scene.request();
+      r.terrain.form = TerrainForm::patches;
+      r.waitForPages = true;
+      r.levers.drawn.smallFeaturePx = 1;
+      r.eye = places[place];
+      r.eye.height = r.eye.height + Metres{height.aboveFt * 0.3048};
+      r.attitude.heading = Degrees{60.0 * static_cast<double>(place)};
+      r.attitude.pitch = Degrees{-3};
+      const auto at = [&](const FrameRequest& base, int i) {
+        FrameRequest moved = base;
+        moved.eye.latitude = base.eye.latitude + Degrees{1.7 / 111e3 * (i + 1)};
+        return moved;
+      };
+      FrameRequest hides = proposed(r);
+      for (const FrameRequest* warm : {&r, &hides}) scene.draw(*warm);
+      FrameResult drawn;
+      const Pairs pairs = inTurn(
+          report.quick() ? 10 : 30,
+          [&](int i) {
+            drawn = scene.draw(at(hides, i));
+            return drawn.cost.total;
+          },
+          [&](int i) { return scene.ms(at(r, i)); });
+      const FrameResult plain = scene.draw(at(r, 29));
+      inView += static_cast<double>(plain.objects.drawn);
+      hidden += static_cast<double>(plain.objects.drawn) - static_cast<double>(drawn.objects.drawn);
+      worst = std::max(worst, pairs.ratio());
+      all.a.insert(all.a.end(), pairs.a.begin(), pairs.a.end());
+      all.b.insert(all.b.end(), pairs.b.begin(), pairs.b.end());
+    }
+    const std::string what = std::string(height.valley ? "valleys" : "any place") + ", " +
+                             std::to_string(static_cast<int>(height.aboveFt)) +
+                             " ft, 200,000 objects over 20 km";
+    report.add(ratioAtMost(
+        height.goal,
+        rowOf(all,
+              {.id = std::string("objects.hidden_") + height.id,
+               .what = "Frame with the horizon, " + what + "; it hides " +
+                       std::to_string(static_cast<int>(100 * hidden / std::max(inView, 1.0))) + " % of " +
+                       std::to_string(static_cast<int>(inView / static_cast<double>(places.size()))) +
+                       " in view",
+               .peer = "frustum culling alone"})));
+    report.add(valueAtMost(1.02, {.id = std::string("objects.worst_") + height.id,
+                                  .what = "The worst place's ratio of these",
+                                  .value = worst,
+                                  .unit = ""}));
+  }
+}
+
+/// Bytes that the process holds in memory.
+double residentMB() {
+  malloc_trim(0);
+  long pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) * 1e-6;
+}
+
+/// Objects alone, without ground, ours beside OpenSceneGraph's.
+void peerRows(Report& report, const terrain::Database& ground, const char* id, double radiusKm, double goal) {
+  auto offscreen = scene::Offscreen::create(BenchScene::kWidth, BenchScene::kHeight);
+  if (!offscreen) return;
+  (*offscreen)->makeCurrent();
+  const auto objects = scatteredOver(ground, kInstances, radiusKm);
+  if (!objects) return;
+  ViewShape view;
+  view.widthPx = BenchScene::kWidth, view.heightPx = BenchScene::kHeight;
+  const CutRule rule{.maxErrorPx = 2, .pixelsPerRadian = pixelsPerRadian(view)};
+  const double before = residentMB();
+  // As the renderer keeps it: what a database reads, what a frame selects, and what is on the GPU.
+  const auto kept = std::make_unique<terrain::ObjectTerrain>(*objects);
+  auto layer = std::make_unique<scene::ObjectLayer>();
+  layer->setObjects(kept.get());
+  scene::ScenePrograms programs;
+  scene::FrameBuffer target;
+  target.resize(view.widthPx, view.heightPx);
+  VisibleObjects visible;
+  const GeodeticPosition place = placesOver(ground, 1, false).front();
+  const LocalFrame& frame = kept->index.frame;
+  const auto queryAt = [&](int i) {
+    GeodeticPosition at = place;
+    at.height = at.height + Metres{91};
+    at.latitude = at.latitude + Degrees{1.7 / 111e3 * i};
+    ObjectQuery query;
+    query.eye = {frame.fromGeodetic(at), eyeAxes(frame, at, {Degrees{-3}, Degrees{0}, Degrees{40.0 + i}})};
+    query.view = view;
+    query.rule = rule;
+    query.leastPx = 1;
+    return query;
+  };
+  double selectMs = 0;
+  const auto ours = [&](int i) {
+    const double start = monotonicSeconds();
+    const ObjectQuery query = queryAt(i);
+    selectObjects(kept->index, query, visible);
+    selectMs = 1e3 * (monotonicSeconds() - start);
+    layer->setInstances(visible, {});
+    glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+    scene::SceneView seen;
+    seen.eye = query.eye;
+    seen.shape = view;
+    programs.begin(seen);
+    programs.clear(true);
+    programs.use(scene::SceneShaders::objects);
+    layer->draw(false);
+    glFinish();
+    return 1e3 * (monotonicSeconds() - start);
+  };
+  ours(0);
+  const double ourMB = residentMB() - before;
+  glUseProgram(0);
+  const double beforePeer = residentMB();
+  ObjectPeer peer(*kept, rule, view.widthPx, view.heightPx);
+  ObjectPeer::Frame last;
+  const auto theirs = [&](int i) {
+    glBindFramebuffer(GL_FRAMEBUFFER, (*offscreen)->framebuffer());
+    glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    glClearDepth(1);
+    const ObjectQuery query = queryAt(i);
+    last = peer.draw(query.eye, query.view);
+    return last.frameMs;
+  };
+  theirs(0);
+  const double peerMB = residentMB() - beforePeer;
+  Pairs frames, culls;
+  for (int i = 0; i < (report.quick() ? 10 : 40); ++i) {
+    frames.a.push_back(ours(i));
+    culls.a.push_back(selectMs);
+    frames.b.push_back(theirs(i));
+    culls.b.push_back(last.cullMs);
+  }
+  const std::string what = "200,000 objects over " + std::to_string(static_cast<int>(2 * radiusKm)) +
+                           " km, 300 ft, " + std::to_string(visible.drawn.size()) + " drawn (" +
+                           std::to_string(visible.triangles / 1000) + " k triangles; peer " +
+                           std::to_string(last.drawables) + " drawn)";
+  const std::string prefix = std::string("objects.") + id;
+  const std::string peerName = "plain OpenSceneGraph, MatrixTransform and LOD an instance";
+  report.add(ratioAtMost(
+      goal,
+      rowOf(frames, {.id = prefix + "_frame", .what = "Frame without ground: " + what, .peer = peerName})));
+  report.add(ratioAtMost(0.05, rowOf(culls, {.id = prefix + "_select",
+                                             .what = "Selection in flight: " + what,
+                                             .peer = peerName + ", cull"})));
+  report.add(valueAtMost(
+      0.4,
+      {.id = prefix + "_select_ms", .what = "The same by itself", .value = culls.medianA(), .unit = "ms"}));
+  report.add(ratioAtMost(0.5, {.id = prefix + "_memory",
+                               .what = "Memory that the objects take, with GL's",
+                               .value = ourMB,
+                               .unit = "MB",
+                               .peer = peerName,
+                               .peerValue = peerMB,
+                               .peerFrom = "run"}));
+}
+
+}  // namespace
+}  // namespace trimtab::bench
+
+int main(int argc, char** argv) {
+  using namespace trimtab;
+  bench::Report report(argc, argv);
+  const auto ground = bench::sampleTerrain(40);
+  if (!ground) return 1;
+  if (report.wants("objects.sparse")) bench::peerRows(report, *ground, "sparse", 19, 0.4);
+  if (report.wants("objects.dense")) bench::peerRows(report, *ground, "dense", 5, 0.6);
+  if (report.wants("objects.hidden"))
+    bench::hiddenRows(report, std::make_shared<const test::ObjectsOn>(
+                                  ground, bench::scatteredOver(*ground, bench::kInstances, 10)));
+  return report.finish();
+}
