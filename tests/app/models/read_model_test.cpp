@@ -6,9 +6,13 @@
 #include <osg/MatrixTransform>
 #include <osg/ProxyNode>
 #include <osg/Switch>
+#include <osg/Texture2D>
+#include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "tests/support.h"
 #include "trimtab/terrain/objects/build_model.h"
@@ -151,6 +155,31 @@ TEST_F(ReadModel, flattensTransformsAndSwitches) {
   EXPECT_NEAR(at(0)[0], 10, 1e-5);
   EXPECT_NEAR(at(1)[2], 2, 1e-5);
   EXPECT_NEAR(at(2)[1], -2, 1e-5);
+}
+
+TEST_F(ReadModel, doesNotDependOnTheOrderOfParts) {
+  std::vector<osg::ref_ptr<osg::Node>> parts;
+  for (const char* image : {"a.ppm", "b.ppm", ""}) {
+    const osg::ref_ptr<osg::Geode> part = triangles(static_cast<unsigned>(3 + parts.size()));
+    if (*image != 0) {
+      test::writeFile(dir_ / image, *image == 'a' ? kFourPixels : "P3\n1 1\n255\n9 8 7\n");
+      part->getOrCreateStateSet()->setTextureAttributeAndModes(
+          0, new osg::Texture2D(osgDB::readRefImageFile((dir_ / image).string())), osg::StateAttribute::ON);
+    }
+    parts.push_back(part);
+  }
+  std::set<std::uint64_t> sums;
+  std::sort(parts.begin(), parts.end());
+  do {
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    for (const auto& part : parts) root->addChild(part);
+    const auto model = readModel(written("a.osgb", *root));
+    ASSERT_TRUE(model) << toString(model.findings());
+    EXPECT_EQ(model->textures.size(), 2u);
+    EXPECT_EQ(model->levels[0].triangles(), 12u);
+    sums.insert(terrain::checksumOf(*model));
+  } while (std::next_permutation(parts.begin(), parts.end()));
+  EXPECT_EQ(sums.size(), 1u);
 }
 
 TEST_F(ReadModel, endsAtReferencesThatGoRound) {
