@@ -14,6 +14,7 @@
 #include <cmath>
 #include <set>
 
+#include "tests/core/terrain/objects/model_support.h"
 #include "tests/support.h"
 #include "trimtab/terrain/objects/build_model.h"
 
@@ -226,17 +227,23 @@ TEST_F(ReadModel, refusesWhatIsNoModel) {
 }
 
 TEST_F(ReadModel, seesOpenFlightModelsThatKnowASignificantSizeAlone) {
-  TRIMTAB_NEEDS_SHARED("data");
+  TRIMTAB_NEEDS_SHARED("data/cdb-gtmodels");
   int read = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(
-           test::sharedDir() / "data", std::filesystem::directory_options::skip_permission_denied)) {
+           test::sharedDir() / "data/cdb-gtmodels",
+           std::filesystem::directory_options::skip_permission_denied)) {
     if (entry.path().extension() != ".flt") continue;
     ++read;
     const auto model = readModel(entry.path());
     ASSERT_TRUE(model) << toString(model.findings());
     EXPECT_GT(model->levels[0].triangles(), 0u) << entry.path();
     const auto built = terrain::buildModel(*model);
-    EXPECT_TRUE(built) << entry.path() << toString(built.findings());
+    ASSERT_TRUE(built) << entry.path() << toString(built.findings());
+    for (const terrain::BuiltLevel& level : built->levels) {
+      const terrain::SourceMesh& first = built->levels[0].mesh;
+      EXPECT_LE(test::farthestSampled(level.mesh, first, 1), double{level.errorM} + 1e-6);
+      EXPECT_LE(test::farthestSampled(first, level.mesh, 1), double{level.errorM} + 1e-6);
+    }
   }
   if (read == 0) GTEST_SKIP() << "no OpenFlight files in " << test::sharedDir() / "data";
 }

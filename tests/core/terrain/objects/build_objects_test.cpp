@@ -1,6 +1,6 @@
 #include "trimtab/terrain/objects/build_objects.h"
 
-#include <chrono>
+#include <set>
 
 #include "model_support.h"
 #include "tests/support.h"
@@ -189,6 +189,25 @@ TEST(BuildObjects, givesTexturesThatFindNoRoomTheirMeanColour) {
   EXPECT_EQ(firstVertex(255).texture, ObjectVertex::kNoTexture);
   EXPECT_EQ(firstVertex(255).colour, (std::array<std::uint8_t, 4>{255, 10, 20, 255}));
   EXPECT_EQ(firstVertex(256).texture, 0);
+}
+
+TEST(BuildObjects, keepsPlacesInTexturesBetweenWholeTurns) {
+  SourceModel source = test::modelOf("wall", {SourceMesh{}});
+  test::addTriangle(source.levels[0], {0, 0, 0}, {4, 0, 0}, {0, 0, 4});
+  source.textures = {{1, 1, {1, 2, 3, 255}}};
+  const std::array<float, 2> places[3] = {{1000.25f, -7.5f}, {1001.5f, -7.5f}, {1000.25f, -5.75f}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    source.levels[0].vertices[i].texture = 0;
+    source.levels[0].vertices[i].place = places[i];
+  }
+  PlacementList list{{"wall"}, {ListedPlacement{Degrees{46.5}, Degrees{8.5}, {}, {}, 1, 0, 2}}};
+  const std::vector<std::optional<BuiltModel>> models{*buildModel(source)};
+  const auto built = buildObjects(models, list, Slope(), kFrame, "list");
+  ASSERT_TRUE(built);
+  std::set<std::pair<int, int>> halves;
+  for (const ObjectVertex& v : built->vertices) halves.insert({v.place[0], v.place[1]});
+  // 0.25 and 1.5; 0.5 and 2.25: as half floats.
+  EXPECT_EQ(halves, (std::set<std::pair<int, int>>{{0x3400, 0x3800}, {0x3e00, 0x3800}, {0x3400, 0x4080}}));
 }
 
 TEST(BuildObjects, putsAMillionInOnePlace) {
