@@ -150,15 +150,27 @@ TEST(BuildObjects, namesWhatIsOffTheGroundAndModelsThatAreNone) {
   models[1].reset();
   PlacementList list = scattered(10, 0.1);
   list.placements[4].latitude = Degrees{50};
+  list.placements.push_back(list.placements[0]);
+  list.placements.back().scale = 1000;
+  list.placements.back().line = 99;
+  std::optional<BuiltModel> large = models[0];
+  large->levels[0].mesh.vertices[0].position = {0, 0, 19000};
+  models.push_back(large);
+  list.models.push_back("large");
+  list.placements.back().model = 2;
   const auto built = buildObjects(models, list, Slope(), kFrame, "list.csv");
   ASSERT_TRUE(built) << toString(built.findings());
   EXPECT_EQ(built->index.instances.size(), 4u);
-  EXPECT_EQ(built->index.models.size(), 1u);
+  EXPECT_EQ(built->index.models.size(), 2u);
   const std::string all = toString(built.findings());
   EXPECT_NE(all.find("list.csv:6: expected a place on the terrain"), std::string::npos) << all;
+  EXPECT_NE(all.find("list.csv:99: scale: expected an object that reaches at most 20000 m"),
+            std::string::npos)
+      << all;
   EXPECT_NE(all.find("list.csv: mast: expected a model that can be used, found 5 rows"), std::string::npos)
       << all;
   models[0].reset();
+  models[2].reset();
   EXPECT_FALSE(buildObjects(models, list, Slope(), kFrame, "list.csv"));
 }
 
