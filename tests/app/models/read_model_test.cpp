@@ -158,6 +158,47 @@ TEST_F(ReadModel, flattensTransformsAndSwitches) {
   EXPECT_NEAR(at(2)[1], -2, 1e-5);
 }
 
+TEST_F(ReadModel, readsWhatOpenSceneGraphWrites) {
+  for (const char* name : {"a.3ds", "a.flt", "a.stl", "a.osg", "a.osgt", "a.osgb", "a.ive"}) {
+    const auto model = readModel(written(name, *triangles(3)));
+    ASSERT_TRUE(model) << name << toString(model.findings());
+    EXPECT_EQ(model->levels.size(), 1u) << name;
+    EXPECT_EQ(model->levels[0].triangles(), 3u) << name;
+    EXPECT_EQ(boundsOf(model->levels[0]), (std::array<float, 6>{0, 0, 0, 3, 0, 2})) << name;
+  }
+}
+
+TEST_F(ReadModel, turnsColladaByItsUpAxis) {
+  // A triangle 2 m high, in the plane that is upright by the file's own words.
+  for (const auto& [axis, places] : {std::pair{"Z_UP", "0 0 0 3 0 0 0 0 2"}, {"Y_UP", "0 0 0 3 0 0 0 2 0"}}) {
+    const auto model = readModel(written(
+        "a.dae",
+        std::string(
+            "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+            "version=\"1.4.1\"><asset><created>2020-01-01T00:00:00</created><modified>2020-01-01T00:00:00"
+            "</modified><up_axis>") +
+            axis +
+            "</up_axis></asset><library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array "
+            "id=\"f\" "
+            "count=\"9\">" +
+            places +
+            "</float_array><technique_common><accessor source=\"#f\" count=\"3\" stride=\"3\"><param "
+            "name=\"X\" "
+            "type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
+            "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "
+            "source=\"#p\"/></vertices>"
+            "<triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 "
+            "2</p></triangles>"
+            "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id=\"s\"><node "
+            "id=\"n\">"
+            "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes><scene>"
+            "<instance_visual_scene url=\"#s\"/></scene></COLLADA>\n"));
+    ASSERT_TRUE(model) << toString(model.findings());
+    const std::array<float, 6> bounds = boundsOf(model->levels[0]), expected{0, 0, 0, 3, 0, 2};
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(bounds[k], expected[k], 1e-5) << axis << ' ' << k;
+  }
+}
+
 TEST_F(ReadModel, doesNotDependOnTheOrderOfParts) {
   std::vector<osg::ref_ptr<osg::Node>> parts;
   for (const char* image : {"a.ppm", "b.ppm", ""}) {
