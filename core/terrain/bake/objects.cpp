@@ -2,7 +2,10 @@
 
 #include <cmath>
 
+#include "drawn_ground.h"
 #include "trimtab/preset/file_io.h"
+#include "trimtab/terrain/format/page_file.h"
+#include "trimtab/terrain/format/patch_store.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/grid/grid_height.h"
 #include "trimtab/terrain/grid/parallel.h"
@@ -93,7 +96,14 @@ Result<ObjectSources> readObjectSources(const BakeOptions& options, std::size_t 
 }
 
 Result<ObjectTerrain> bakeObjects(ObjectSources& sources, const HeightSource& heights,
-                                  const LocalFrame& frame, const Progress& progress) {
+                                  const std::filesystem::path& patches, const LocalFrame& frame,
+                                  const Progress& progress) {
+  const auto pages = PageFile::open(patches);
+  if (!pages) return pages.findings();
+  const auto drawn = openPatches(*pages, patches, heights.posts());
+  if (!drawn) return drawn.findings();
+  if (auto stood = standOnDrawnGround(sources.list, **drawn, heights.posts()); !stood)
+    return stood.findings();
   const auto count = static_cast<std::uint32_t>(sources.models.size());
   std::vector<std::optional<BuiltModel>> built(count);
   std::vector<Findings> about(count);
