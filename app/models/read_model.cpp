@@ -7,6 +7,7 @@
 #include <exception>
 #include <utility>
 
+#include "app/models/canonical.h"
 #include "app/models/flattened.h"
 #include "app/models/watched_reads.h"
 #include "trimtab/preset/file_io.h"
@@ -43,6 +44,7 @@ terrain::SourceModel modelOf(osg::Node& node, const std::filesystem::path& file)
   }
   if (model.levels.empty()) model.levels.emplace_back();
   model.textures = textures.take();
+  makeCanonical(model);
   return model;
 }
 

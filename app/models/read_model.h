@@ -13,8 +13,8 @@ std::string modelFormats();
 
 /// Reads a model: .flt, .ive, .osgb, .osgt, .osg, .3ds, .obj, .ac, .dae, .ply or .stl. Axes are those of
 /// SourceModel, so z is up: in .ac, as FlightGear writes it, and in .obj y is up, and is turned; .dae says
-/// which is. Units are metres: what a file says of others is not read. Not for use by several threads at
-/// once.
+/// which is. The same files give the same bytes. Units are metres: what a file says of others is not read.
+/// Not for use by several threads at once.
 ///
 /// Colours are those of vertices or of materials; only the texture of unit 0 is read. Findings of success
 /// name textures and references that are not there, and what OpenSceneGraph had to say.

@@ -335,7 +335,8 @@ class Job {
 
   Result<Done> makeObjects() {
     if (!objects_) return Done{};
-    const auto objects = bakeObjects(*objects_, *file_, geometry_->frame(), stage(Stage::objects));
+    const auto objects = bakeObjects(*objects_, *file_, work_->database() / kPatchesName, geometry_->frame(),
+                                     stage(Stage::objects));
     objects_.reset();
     if (!objects) return objects.findings();
     keep(objects.findings());

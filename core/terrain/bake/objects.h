@@ -29,8 +29,10 @@ struct ObjectSources {
 /// more of them than `memory` bytes hold while they are placed.
 Result<ObjectSources> readObjectSources(const BakeOptions& options, std::size_t memory);
 
-/// Makes levels of all models and puts them on the baked heights. Takes the models out of `sources`.
+/// Makes levels of all models and puts them on the ground: `patches`, the finished file of a database with
+/// the baked `heights`, says where it is drawn. Takes the models out of `sources`.
 Result<ObjectTerrain> bakeObjects(ObjectSources& sources, const HeightSource& heights,
-                                  const LocalFrame& frame, const Progress& progress);
+                                  const std::filesystem::path& patches, const LocalFrame& frame,
+                                  const Progress& progress);
 
 }  // namespace trimtab::terrain

@@ -43,6 +43,13 @@ Result<std::vector<std::uint32_t>> packModels(std::span<const std::optional<Buil
   return numbers;
 }
 
+Finding tooLarge(const std::string& where, const ListedPlacement& p, const ModelExtent& model) {
+  return {Severity::warning, where + ':' + std::to_string(p.line), "scale",
+          "an object that reaches at most " + numberText(double{ObjectLimits::kRadiusM}) +
+              " m from its origin; it is left out",
+          numberText(model.radiusM * p.scale, 3) + " m at a scale of " + numberText(p.scale)};
+}
+
 Finding offTheGround(const std::string& where, const ListedPlacement& p) {
   return {
       Severity::warning, where + ':' + std::to_string(p.line), "",
@@ -73,6 +80,10 @@ Result<ObjectTerrain> buildObjects(std::span<const std::optional<BuiltModel>> mo
     const ListedPlacement& p = list.placements[i];
     if ((*numbers)[p.model] == kUnused) {
       ++unused[p.model];
+      continue;
+    }
+    if (extents[(*numbers)[p.model]].radiusM * p.scale > double{ObjectLimits::kRadiusM}) {
+      findings.add(Severity::warning, [&] { return tooLarge(where, p, extents[(*numbers)[p.model]]); });
       continue;
     }
     const std::optional<Metres> onGround = ground.heightAt(p.latitude, p.longitude);

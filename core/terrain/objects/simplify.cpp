@@ -64,12 +64,18 @@ SourceMesh withoutTexture(SourceMesh mesh, const std::vector<std::array<std::uin
   return mesh;
 }
 
-SourceMesh simplifiedTo(const SourceMesh& mesh, std::size_t triangles) {
+/// Collapses edges; or, `loosely`, joins whatever vertices are near each other, touching or not.
+SourceMesh simplifiedTo(const SourceMesh& mesh, std::size_t triangles, bool loosely) {
   SourceMesh out = mesh;
   constexpr float kAnyError = std::numeric_limits<float>::max();
-  const std::size_t count = meshopt_simplify(out.indices.data(), mesh.indices.data(), mesh.indices.size(),
-                                             mesh.vertices[0].position.data(), mesh.vertices.size(),
-                                             sizeof(SourceVertex), 3 * triangles, kAnyError, 0, nullptr);
+  constexpr std::size_t kStride = sizeof(SourceVertex);
+  const std::uint32_t* const from = mesh.indices.data();
+  const float* const positions = mesh.vertices[0].position.data();
+  const std::size_t indices = mesh.indices.size(), vertices = mesh.vertices.size(), most = 3 * triangles;
+  const std::size_t count = loosely ? meshopt_simplifySloppy(out.indices.data(), from, indices, positions,
+                                                             vertices, kStride, most, kAnyError, nullptr)
+                                    : meshopt_simplify(out.indices.data(), from, indices, positions, vertices,
+                                                       kStride, most, kAnyError, 0, nullptr);
   out.indices.resize(count);
   MeshFaults folded;  // a triangle that became a line is of no use
   return checkedMesh(out, std::numeric_limits<std::uint32_t>::max(), folded);
@@ -82,21 +88,24 @@ std::vector<SourceMesh> simplified(const SourceMesh& mesh,
   // Each hinders less than the one before: seams of normals, then seams of textures.
   const std::vector<SourceMesh> forms{mesh, weldedSmoothly(mesh),
                                       weldedSmoothly(withoutTexture(mesh, textures))};
-  constexpr std::size_t kLeastTriangles = 4;
+  constexpr std::size_t kLeastTriangles = 4, kMostLoosely = 1000;
   constexpr double kNearEnough = 1.25;
   std::vector<SourceMesh> levels;
   for (std::size_t target = mesh.triangles() / 2; target >= kLeastTriangles; target /= 2) {
     SourceMesh best;
     for (const SourceMesh& form : forms) {
-      SourceMesh level = simplifiedTo(form, target);
+      SourceMesh level = simplifiedTo(form, target, false);
       if (level.triangles() > 0 && (best.triangles() == 0 || level.triangles() < best.triangles()))
         best = std::move(level);
       if (best.triangles() > 0 &&
           static_cast<double>(best.triangles()) <= kNearEnough * static_cast<double>(target))
         break;
     }
-    if (best.triangles() == 0) break;
-    levels.push_back(std::move(best));
+    if (best.triangles() > 0) levels.push_back(std::move(best));
+    // Collapses lose leaves and other loose parts one by one; this keeps the outline of all of them.
+    if (target <= kMostLoosely)
+      if (SourceMesh level = simplifiedTo(mesh, target, true); level.triangles() > 0)
+        levels.push_back(std::move(level));
   }
   return levels;
 }

@@ -133,26 +133,33 @@ class FarthestPoint {
  public:
   FarthestPoint(const TriangleTree& to, double slackM) : to_(to), slackM_(slackM) {}
 
-  void seePoint(Vec3 point) {
+  /// Returns the triangle that is nearest to a point.
+  std::uint32_t seePoint(Vec3 point) {
     const TriangleTree::Nearest nearest = to_.nearest(point, last_);
     last_ = nearest.triangle;
     found_ = std::max(found_, nearest.distance);
+    return last_;
+  }
+  /// Bounds a piece by its distance to one triangle; returns whether that is enough. No search is needed, and
+  /// where surfaces are near each other it does for most pieces.
+  bool settles(Piece& piece, std::uint32_t triangle) {
+    double atCorners = 0;
+    for (const Vec3& c : piece.corner) atCorners = std::max(atCorners, to_.distanceTo(c, triangle));
+    piece.most = std::min(piece.most, atCorners);
+    if (piece.most > enough()) return false;
+    settled_ = std::max(settled_, piece.most);
+    return true;
   }
   void add(Piece piece) {
+    if (settles(piece, piece.nearest)) return;
     const Vec3 middle = (piece.corner[0] + piece.corner[1] + piece.corner[2]) * (1.0 / 3);
     const TriangleTree::Nearest nearest = to_.nearest(middle, piece.nearest);
     found_ = std::max(found_, nearest.distance);
-    double reach = 0, atCorners = 0;
-    for (const Vec3& c : piece.corner) {
-      reach = std::max(reach, length(c - middle));
-      atCorners = std::max(atCorners, to_.distanceTo(c, nearest.triangle));
-    }
-    piece.most = std::min({piece.most, nearest.distance + reach, atCorners});
+    double reach = 0;
+    for (const Vec3& c : piece.corner) reach = std::max(reach, length(c - middle));
+    piece.most = std::min(piece.most, nearest.distance + reach);
     piece.nearest = nearest.triangle;
-    if (piece.most > enough())
-      pieces_.push(piece);
-    else
-      settled_ = std::max(settled_, piece.most);
+    if (!settles(piece, nearest.triangle)) pieces_.push(piece);
   }
   double search(std::size_t mostPieces) {
     for (std::size_t divided = 0; !pieces_.empty(); ++divided) {
@@ -189,12 +196,18 @@ class FarthestPoint {
 
 double farthestFrom(const SourceMesh& from, const TriangleTree& to, double slackM) {
   FarthestPoint farthest(to, slackM);
-  for (const SourceVertex& v : from.vertices) farthest.seePoint(positionOf(v));
-  for (std::size_t i = 0; i + 2 < from.indices.size(); i += 3)
-    farthest.add({std::numeric_limits<double>::infinity(),
-                  0,
-                  {positionOf(from.vertices[from.indices[i]]), positionOf(from.vertices[from.indices[i + 1]]),
-                   positionOf(from.vertices[from.indices[i + 2]])}});
+  std::vector<std::uint32_t> nearest;
+  nearest.reserve(from.vertices.size());
+  for (const SourceVertex& v : from.vertices) nearest.push_back(farthest.seePoint(positionOf(v)));
+  for (std::size_t i = 0; i + 2 < from.indices.size(); i += 3) {
+    const std::uint32_t *const corner = &from.indices[i], at = nearest[corner[0]];
+    Piece piece{std::numeric_limits<double>::infinity(),
+                at,
+                {positionOf(from.vertices[corner[0]]), positionOf(from.vertices[corner[1]]),
+                 positionOf(from.vertices[corner[2]])}};
+    if (!farthest.settles(piece, nearest[corner[1]]) && !farthest.settles(piece, nearest[corner[2]]))
+      farthest.add(piece);
+  }
   return farthest.search(20000 + 4 * from.triangles());
 }
 

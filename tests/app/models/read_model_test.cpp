@@ -6,10 +6,15 @@
 #include <osg/MatrixTransform>
 #include <osg/ProxyNode>
 #include <osg/Switch>
+#include <osg/Texture2D>
+#include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "tests/core/terrain/objects/model_support.h"
 #include "tests/support.h"
 #include "trimtab/terrain/objects/build_model.h"
 
@@ -153,6 +158,72 @@ TEST_F(ReadModel, flattensTransformsAndSwitches) {
   EXPECT_NEAR(at(2)[1], -2, 1e-5);
 }
 
+TEST_F(ReadModel, readsWhatOpenSceneGraphWrites) {
+  for (const char* name : {"a.3ds", "a.flt", "a.stl", "a.osg", "a.osgt", "a.osgb", "a.ive"}) {
+    const auto model = readModel(written(name, *triangles(3)));
+    ASSERT_TRUE(model) << name << toString(model.findings());
+    EXPECT_EQ(model->levels.size(), 1u) << name;
+    EXPECT_EQ(model->levels[0].triangles(), 3u) << name;
+    EXPECT_EQ(boundsOf(model->levels[0]), (std::array<float, 6>{0, 0, 0, 3, 0, 2})) << name;
+  }
+}
+
+TEST_F(ReadModel, turnsColladaByItsUpAxis) {
+  // A triangle 2 m high, in the plane that is upright by the file's own words.
+  for (const auto& [axis, places] : {std::pair{"Z_UP", "0 0 0 3 0 0 0 0 2"}, {"Y_UP", "0 0 0 3 0 0 0 2 0"}}) {
+    const auto model = readModel(written(
+        "a.dae",
+        std::string(
+            "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+            "version=\"1.4.1\"><asset><created>2020-01-01T00:00:00</created><modified>2020-01-01T00:00:00"
+            "</modified><up_axis>") +
+            axis +
+            "</up_axis></asset><library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array "
+            "id=\"f\" "
+            "count=\"9\">" +
+            places +
+            "</float_array><technique_common><accessor source=\"#f\" count=\"3\" stride=\"3\"><param "
+            "name=\"X\" "
+            "type=\"float\"/><param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor>"
+            "</technique_common></source><vertices id=\"v\"><input semantic=\"POSITION\" "
+            "source=\"#p\"/></vertices>"
+            "<triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 "
+            "2</p></triangles>"
+            "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id=\"s\"><node "
+            "id=\"n\">"
+            "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes><scene>"
+            "<instance_visual_scene url=\"#s\"/></scene></COLLADA>\n"));
+    ASSERT_TRUE(model) << toString(model.findings());
+    const std::array<float, 6> bounds = boundsOf(model->levels[0]), expected{0, 0, 0, 3, 0, 2};
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(bounds[k], expected[k], 1e-5) << axis << ' ' << k;
+  }
+}
+
+TEST_F(ReadModel, doesNotDependOnTheOrderOfParts) {
+  std::vector<osg::ref_ptr<osg::Node>> parts;
+  for (const char* image : {"a.ppm", "b.ppm", ""}) {
+    const osg::ref_ptr<osg::Geode> part = triangles(static_cast<unsigned>(3 + parts.size()));
+    if (*image != 0) {
+      test::writeFile(dir_ / image, *image == 'a' ? kFourPixels : "P3\n1 1\n255\n9 8 7\n");
+      part->getOrCreateStateSet()->setTextureAttributeAndModes(
+          0, new osg::Texture2D(osgDB::readRefImageFile((dir_ / image).string())), osg::StateAttribute::ON);
+    }
+    parts.push_back(part);
+  }
+  std::set<std::uint64_t> sums;
+  std::sort(parts.begin(), parts.end());
+  do {
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    for (const auto& part : parts) root->addChild(part);
+    const auto model = readModel(written("a.osgb", *root));
+    ASSERT_TRUE(model) << toString(model.findings());
+    EXPECT_EQ(model->textures.size(), 2u);
+    EXPECT_EQ(model->levels[0].triangles(), 12u);
+    sums.insert(terrain::checksumOf(*model));
+  } while (std::next_permutation(parts.begin(), parts.end()));
+  EXPECT_EQ(sums.size(), 1u);
+}
+
 TEST_F(ReadModel, endsAtReferencesThatGoRound) {
   const auto refersTo = [&](const char* name) {
     const osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -197,17 +268,23 @@ TEST_F(ReadModel, refusesWhatIsNoModel) {
 }
 
 TEST_F(ReadModel, seesOpenFlightModelsThatKnowASignificantSizeAlone) {
-  TRIMTAB_NEEDS_SHARED("data");
+  TRIMTAB_NEEDS_SHARED("data/cdb-gtmodels");
   int read = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(
-           test::sharedDir() / "data", std::filesystem::directory_options::skip_permission_denied)) {
+           test::sharedDir() / "data/cdb-gtmodels",
+           std::filesystem::directory_options::skip_permission_denied)) {
     if (entry.path().extension() != ".flt") continue;
     ++read;
     const auto model = readModel(entry.path());
     ASSERT_TRUE(model) << toString(model.findings());
     EXPECT_GT(model->levels[0].triangles(), 0u) << entry.path();
     const auto built = terrain::buildModel(*model);
-    EXPECT_TRUE(built) << entry.path() << toString(built.findings());
+    ASSERT_TRUE(built) << entry.path() << toString(built.findings());
+    for (const terrain::BuiltLevel& level : built->levels) {
+      const terrain::SourceMesh& first = built->levels[0].mesh;
+      EXPECT_LE(test::farthestSampled(level.mesh, first, 1), double{level.errorM} + 1e-6);
+      EXPECT_LE(test::farthestSampled(first, level.mesh, 1), double{level.errorM} + 1e-6);
+    }
   }
   if (read == 0) GTEST_SKIP() << "no OpenFlight files in " << test::sharedDir() / "data";
 }

@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include "core/terrain/objects/stand_ins.h"
 #include "core/terrain/objects/surface_distance.h"
 #include "model_support.h"
 #include "tests/support.h"
@@ -84,6 +85,31 @@ TEST(BuildModel, leavesAModelOfFewTrianglesAsItIs) {
   for (std::size_t i = 1; i < model->levels.size(); ++i)
     EXPECT_LE(model->levels[i].mesh.triangles(), 12u) << "only stand-ins";
   expectBounds(*model);
+}
+
+TEST(StandIns, faceOutwardsWithinTheBounds) {
+  const SourceMesh ball = test::ball(6, 4, 0.1f);
+  const std::vector<SourceMesh> all = standIns(ball, {10, 20, 30, 255});
+  EXPECT_EQ(all.size(), 6u);
+  int closed = 0;
+  for (const SourceMesh& mesh : all) {
+    EXPECT_LE(mesh.triangles(), 12u);
+    for (const SourceVertex& v : mesh.vertices)
+      EXPECT_EQ(v.colour, (std::array<std::uint8_t, 4>{10, 20, 30, 255}));
+    // All points of the ball's box are within 12 m of its middle, those of stand-ins too.
+    for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
+      const Vec3 a = test::cornerOf(mesh, k), b = test::cornerOf(mesh, k + 1),
+                 c = test::cornerOf(mesh, k + 2), middle = (a + b + c) * (1.0 / 3) - Vec3{0, 0, 4};
+      EXPECT_LT(length(middle), 8);
+      if (mesh.bothSides) continue;
+      EXPECT_GT(dot(cross(b - a, c - a), middle), 0) << "a face that looks inwards";
+    }
+    closed += !mesh.bothSides;
+  }
+  EXPECT_EQ(closed, 4);
+  SourceMesh flat;
+  test::addTriangle(flat, {0, 0, 0}, {1, 0, 0}, {0, 0, 1});
+  EXPECT_TRUE(standIns(flat, {1, 1, 1, 255}).empty());
 }
 
 TEST(BuildModel, isTheSameToTheBit) {

@@ -1,6 +1,6 @@
 #include "trimtab/terrain/objects/build_objects.h"
 
-#include <chrono>
+#include <set>
 
 #include "model_support.h"
 #include "tests/support.h"
@@ -150,15 +150,27 @@ TEST(BuildObjects, namesWhatIsOffTheGroundAndModelsThatAreNone) {
   models[1].reset();
   PlacementList list = scattered(10, 0.1);
   list.placements[4].latitude = Degrees{50};
+  list.placements.push_back(list.placements[0]);
+  list.placements.back().scale = 1000;
+  list.placements.back().line = 99;
+  std::optional<BuiltModel> large = models[0];
+  large->levels[0].mesh.vertices[0].position = {0, 0, 19000};
+  models.push_back(large);
+  list.models.push_back("large");
+  list.placements.back().model = 2;
   const auto built = buildObjects(models, list, Slope(), kFrame, "list.csv");
   ASSERT_TRUE(built) << toString(built.findings());
   EXPECT_EQ(built->index.instances.size(), 4u);
-  EXPECT_EQ(built->index.models.size(), 1u);
+  EXPECT_EQ(built->index.models.size(), 2u);
   const std::string all = toString(built.findings());
   EXPECT_NE(all.find("list.csv:6: expected a place on the terrain"), std::string::npos) << all;
+  EXPECT_NE(all.find("list.csv:99: scale: expected an object that reaches at most 20000 m"),
+            std::string::npos)
+      << all;
   EXPECT_NE(all.find("list.csv: mast: expected a model that can be used, found 5 rows"), std::string::npos)
       << all;
   models[0].reset();
+  models[2].reset();
   EXPECT_FALSE(buildObjects(models, list, Slope(), kFrame, "list.csv"));
 }
 
@@ -189,6 +201,25 @@ TEST(BuildObjects, givesTexturesThatFindNoRoomTheirMeanColour) {
   EXPECT_EQ(firstVertex(255).texture, ObjectVertex::kNoTexture);
   EXPECT_EQ(firstVertex(255).colour, (std::array<std::uint8_t, 4>{255, 10, 20, 255}));
   EXPECT_EQ(firstVertex(256).texture, 0);
+}
+
+TEST(BuildObjects, keepsPlacesInTexturesBetweenWholeTurns) {
+  SourceModel source = test::modelOf("wall", {SourceMesh{}});
+  test::addTriangle(source.levels[0], {0, 0, 0}, {4, 0, 0}, {0, 0, 4});
+  source.textures = {{1, 1, {1, 2, 3, 255}}};
+  const std::array<float, 2> places[3] = {{1000.25f, -7.5f}, {1001.5f, -7.5f}, {1000.25f, -5.75f}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    source.levels[0].vertices[i].texture = 0;
+    source.levels[0].vertices[i].place = places[i];
+  }
+  PlacementList list{{"wall"}, {ListedPlacement{Degrees{46.5}, Degrees{8.5}, {}, {}, 1, 0, 2}}};
+  const std::vector<std::optional<BuiltModel>> models{*buildModel(source)};
+  const auto built = buildObjects(models, list, Slope(), kFrame, "list");
+  ASSERT_TRUE(built);
+  std::set<std::pair<int, int>> halves;
+  for (const ObjectVertex& v : built->vertices) halves.insert({v.place[0], v.place[1]});
+  // 0.25 and 1.5; 0.5 and 2.25: as half floats.
+  EXPECT_EQ(halves, (std::set<std::pair<int, int>>{{0x3400, 0x3800}, {0x3e00, 0x3800}, {0x3400, 0x4080}}));
 }
 
 TEST(BuildObjects, putsAMillionInOnePlace) {

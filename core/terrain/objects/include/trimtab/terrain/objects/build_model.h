@@ -14,9 +14,10 @@ namespace trimtab::terrain {
 struct BuiltLevel {
   SourceMesh mesh;
   /// No point of this mesh is farther from the first level than this, and no point of the first level is
-  /// farther from this mesh: metres, at most a fiftieth or a thousandth of the model's radius too large. So
-  /// the outlines that both draw are no farther apart either, whatever they are seen from. 0 for the first
-  /// level, at least kLeastErrorM for others. It says nothing of colours and of holes in textures.
+  /// farther from this mesh: metres. It is too large by at most a fiftieth of itself or a thousandth of the
+  /// model's radius, but for meshes so tangled that the search ends before (farthestFrom). The outlines that
+  /// both draw are no farther apart either, from wherever they are seen. 0 for the first level, at least
+  /// kLeastErrorM for others. It says nothing of colours and of holes in textures.
   float errorM = 0;
 };
 inline constexpr float kLeastErrorM = 0.001f;
@@ -29,7 +30,7 @@ struct BuiltModel {
 
 /// What a model may hold at most.
 struct ModelLimits {
-  static constexpr std::size_t kTriangles = 2000000;  ///< of one level
+  static constexpr std::size_t kTriangles = 1000000;  ///< of one level: they take about a minute
   /// A level of fewer triangles gets no others but stand-ins.
   static constexpr std::size_t kSimplified = 24;
   /// A level that is made is kept if it has at most this share of the triangles of the one before.
@@ -38,8 +39,9 @@ struct ModelLimits {
 
 /// Checks a model and makes its levels. Given levels are kept if they have fewer triangles than the one
 /// before and a greater error, which is measured. A model of one level of more than ModelLimits::kSimplified
-/// triangles is simplified by meshoptimizer (whose own error is no bound) to halves, quarters and so on;
-/// vertices are welded where it stalls, last without their texture. At the end come stand-ins of two to
+/// triangles is simplified by meshoptimizer (whose own error is no bound) to halves, quarters and so on, by
+/// collapsing edges and by joining near vertices; vertices are welded where it stalls, last without their
+/// texture. At the end come stand-ins of two to
 /// twelve triangles in the model's average colour: boxes, a pyramid, a double pyramid, crossed cards. Of all
 /// these, only levels with a greater error and at most ModelLimits::kFewer of the triangles of the one before
 /// stay.

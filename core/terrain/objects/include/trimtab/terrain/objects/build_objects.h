@@ -23,10 +23,11 @@ inline constexpr double kLeafSideM = 16;
 /// they are drawn, with turns and places rounded to what is stored.
 ///
 /// `models`: one per `list.models`; none for one that cannot be used. `where` names the placements in
-/// findings. Placements off the ground, or of models that are none, are left out: the former with a warning
-/// for each row (of the first FindingList::kMost, then their number), the latter with one for each model.
-/// Fails if none is left, if the models' meshes outgrow what indices can count, or if `progress` says so.
-/// Of more than 255 textures the last ones become their average colour, with a warning.
+/// findings. Three kinds of placements are left out: those off the ground and those that their scale makes
+/// larger than ObjectLimits::kRadiusM, with a warning for each row (the first FindingList::kMost, then their
+/// number), and those of models that are none, with one for each model. Fails if none is left, if the models'
+/// meshes outgrow what indices can count, or if `progress` says so. Of more than 255 textures the last ones
+/// become their average colour, with a warning.
 Result<ObjectTerrain> buildObjects(std::span<const std::optional<BuiltModel>> models,
                                    const PlacementList& list, const GroundHeights& ground,
                                    const LocalFrame& frame, const std::string& where,
