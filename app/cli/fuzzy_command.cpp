@@ -120,8 +120,8 @@ void addFuzzy(CLI::App& preset, int& exitCode) {
       "names, _ stands for a comma");
   importing->add_flag(
       "--accept-difference", options->acceptDifference,
-      "Import a file of planes or of Mamdani's kind even where the policy differs from it by more "
-      "than 5 % of an output's range");
+      "Keep the rules of a file of planes or of Mamdani's kind even where the policy differs from it by more "
+      "than 5 % of an output's range; otherwise a table replaces them there");
   formatOption(importing);
   importing->callback([&exitCode, options] { exitCode = importPolicy(*options); });
 }

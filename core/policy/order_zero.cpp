@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constant_fit.h"
 #include "fuzzy_shapes.h"
 #include "rule_surface.h"
+#include "rule_table.h"
 #include "system_text.h"
 #include "trimtab/units/number.h"
 
@@ -12,9 +14,9 @@ namespace trimtab::fuzzy_system {
 namespace {
 
 constexpr double kMostDifference = 0.05;  // of the output's range
-constexpr std::size_t kMostPlaces = 101 * 101, kFewestPlaces = 64;
+constexpr std::size_t kMostPlaces = 101 * 101, kMostPlacesOfMore = 25 * 25 * 25, kFewestPlaces = 64;
 /// Operations that a grid may cost, so that reading takes a second at most.
-constexpr std::size_t kWork = 100'000'000;
+constexpr std::size_t kWork = 50'000'000;
 
 std::string keyOf(const Term& term) {
   return "term " + term.name.substr(0, 40);
@@ -57,7 +59,7 @@ bool hasPlanes(const Variable& output) {
 void checkAreas(const System& system, std::size_t output, Lines& lines) {
   const MamdaniOutput terms(system, output);
   for (std::size_t t = 0; t < system.outputs[output].terms.size(); ++t)
-    if (const Term& term = system.outputs[output].terms[t]; std::isnan(terms.centroidOf(t)))
+    if (const Term& term = system.outputs[output].terms[t]; !terms.hasArea(t))
       lines.refuseAt(term.where, keyOf(term), "a term within the output's range", numbersText(term.numbers));
 }
 
@@ -127,152 +129,126 @@ struct Difference {
   }
 };
 
+/// Makes constants of planes and of Mamdani's terms.
 class Reduction {
  public:
   /// `made` is `system` with points instead of other shapes.
   Reduction(const System& system, System made)
-      : system_(system), made_(std::move(made)), grid_(system.inputs, placesFor(system)) {}
-
-  System run() {
+      : system_(system),
+        made_(std::move(made)),
+        grid_(system.inputs, placesFor(system)),
+        surface_(surfaceOf(system, grid_)) {
     made_.mamdani.reset();
     for (std::size_t o = 0; o < system_.outputs.size(); ++o)
-      if (system_.mamdani) useCentroids(o);
-    if (!system_.mamdani) fitPlanes();
-    return made_;
+      if (needsConstants(o)) keepRules(o);
   }
 
-  /// Compares both surfaces of each output.
-  std::vector<Difference> differences() const {
-    std::vector<Difference> differences(system_.outputs.size());
-    std::vector<MamdaniOutput> mamdani;
-    if (system_.mamdani)
-      for (std::size_t o = 0; o < system_.outputs.size(); ++o) mamdani.emplace_back(system_, o);
-    RuleFirings before(system_, grid_), after(made_, grid_);
-    std::vector<std::size_t> step;
-    std::vector<double> old, now;
-    for (std::size_t place = 0; place < grid_.places(); ++place) {
-      grid_.stepsTo(place, step);
-      weigh(before.at(step), old);
-      weigh(after.at(step), now);
-      for (std::size_t o = 0; o < system_.outputs.size(); ++o)
-        differences[o].add(system_.mamdani ? mamdani[o].value(old) : mean(system_, o, old, step),
-                           mean(made_, o, now, step));
-    }
+  bool needsConstants(std::size_t o) const { return system_.mamdani || hasPlanes(system_.outputs[o]); }
+  const System& withRules() const { return made_; }
+  std::optional<System> table(const std::vector<double>& most) const {
+    return tableOf(system_, grid_, surface_, most);
+  }
+
+  /// Compares the surface of each output with that of the file.
+  std::vector<Difference> differencesOf(const System& made) const {
+    std::vector<Difference> differences(surface_.size());
+    const Surface now = surfaceOf(made, grid_);
+    for (std::size_t o = 0; o < now.size(); ++o)
+      for (std::size_t place = 0; place < grid_.places(); ++place)
+        differences[o].add(surface_[o][place], now[o][place]);
     return differences;
   }
 
  private:
   static std::size_t placesFor(const System& system) {
     const std::size_t each = system.mamdani ? 100 * system.outputs.size() : 4;
-    return std::clamp(kWork / std::max<std::size_t>(1, each * system.rules.size()), kFewestPlaces,
-                      kMostPlaces);
+    const std::size_t most = system.inputs.size() > 2 ? kMostPlacesOfMore : kMostPlaces;
+    return std::clamp(kWork / std::max<std::size_t>(1, each * system.rules.size()), kFewestPlaces, most);
   }
 
-  void weigh(const std::vector<double>& firing, std::vector<double>& weighted) const {
-    weighted = firing;
-    for (std::size_t r = 0; r < firing.size(); ++r)
-      weighted[r] *= system_.rules[r].enabled ? system_.rules[r].weight : 0;
-  }
-
-  double valueOf(const Term& term, const std::vector<std::size_t>& step) const {
-    double value = term.numbers.back();
-    if (term.shape == "Linear")
-      for (std::size_t i = 0; i < step.size(); ++i) value += term.numbers[i] * grid_.x(i, step[i]);
-    return value;
-  }
-
-  double mean(const System& system, std::size_t output, const std::vector<double>& firing,
-              const std::vector<std::size_t>& step) const {
-    double sum = 0, weight = 0;
-    for (std::size_t r = 0; r < firing.size(); ++r)
-      for (const Conclusion& conclusion : system.rules[r].conclusions)
-        if (conclusion.output == output && firing[r] > 0) {
-          sum += firing[r] * valueOf(system.outputs[output].terms[conclusion.term], step);
-          weight += firing[r];
-        }
-    return sum / weight;
-  }
-
-  void useCentroids(std::size_t o) {
-    const MamdaniOutput output(system_, o);
-    for (std::size_t t = 0; t < system_.outputs[o].terms.size(); ++t) {
-      Term& term = made_.outputs[o].terms[t];
-      term.shape = "Constant";
-      term.numbers = {rounded(output.centroidOf(t))};
-    }
-  }
-
-  /// Gives each rule a term of its own instead of a plane.
-  void fitPlanes() {
-    std::vector<std::size_t> step;
-    std::vector<std::vector<double>> sums(system_.rules.size());
-    std::vector<double> weights(system_.rules.size(), 0);
-    for (std::size_t r = 0; r < sums.size(); ++r) sums[r].assign(system_.rules[r].conclusions.size(), 0);
+  /// Gives each rule a constant of its own.
+  void keepRules(std::size_t o) {
+    ConstantMeans means;
+    std::vector<double> wanted;
     RuleFirings firings(made_, grid_);
+    std::vector<std::size_t> step;
+    Range within{HUGE_VAL, -HUGE_VAL};
     for (std::size_t place = 0; place < grid_.places(); ++place) {
       grid_.stepsTo(place, step);
       const std::vector<double>& firing = firings.at(step);
-      for (std::size_t r = 0; r < sums.size(); ++r) {
-        weights[r] += firing[r];
-        for (std::size_t c = 0; firing[r] > 0 && c < sums[r].size(); ++c)
-          sums[r][c] += firing[r] * valueOf(termOf(system_.rules[r].conclusions[c]), step);
-      }
+      double all = 0;
+      for (std::size_t r = 0; r < firing.size(); ++r)
+        if (sets(r, o)) all += firing[r] * weightOf(system_.rules[r]);
+      if (!(all > 0) || std::isnan(surface_[o][place])) continue;
+      wanted.push_back(surface_[o][place]);
+      within = {std::min(within.low, wanted.back()), std::max(within.high, wanted.back())};
+      means.addPlace();
+      for (std::size_t r = 0; r < firing.size(); ++r)
+        if (const double part = firing[r] * weightOf(system_.rules[r]); sets(r, o) && part > 0)
+          means.addShare(r, part / all);
     }
-    for (std::size_t r = 0; r < sums.size(); ++r)
-      for (std::size_t c = 0; c < sums[r].size(); ++c) {
-        Conclusion& conclusion = made_.rules[r].conclusions[c];
-        const Term& plane = termOf(system_.rules[r].conclusions[c]);
-        if (plane.shape != "Linear") continue;
-        auto& terms = made_.outputs[conclusion.output].terms;
-        const double constant = weights[r] > 0 ? sums[r][c] / weights[r] : plane.numbers.back();
-        terms.push_back({plane.name, "Constant", {rounded(constant)}, plane.where});
+    const Range range = system_.outputs[o].range;
+    if (range.low < range.high) within = {std::min(within.low, range.low), std::max(within.high, range.high)};
+    if (!(within.low <= within.high)) within = {0, 0};
+    constexpr int kRounds = 12;
+    const auto fitted = fitConstants(means, wanted, made_.rules.size(), within, kRounds);
+    std::vector<Term> terms;
+    for (std::size_t r = 0; r < made_.rules.size(); ++r)
+      for (Conclusion& conclusion : made_.rules[r].conclusions) {
+        if (conclusion.output != o) continue;
+        const Term& term = made_.outputs[o].terms[conclusion.term];
+        terms.push_back({term.name, "Constant", {roundedFit(fitted.constants[r])}, term.where});
         conclusion.term = terms.size() - 1;
       }
-    for (Variable& output : made_.outputs) dropPlanes(output, made_.rules, &output - made_.outputs.data());
+    made_.outputs[o].terms = std::move(terms);
   }
 
-  static void dropPlanes(Variable& output, std::vector<Rule>& rules, std::ptrdiff_t index) {
-    std::vector<std::size_t> kept(output.terms.size());
-    std::vector<Term> terms;
-    for (std::size_t t = 0; t < output.terms.size(); ++t) {
-      kept[t] = terms.size();
-      if (output.terms[t].shape != "Linear") terms.push_back(output.terms[t]);
-    }
-    for (Rule& rule : rules)
-      for (Conclusion& conclusion : rule.conclusions)
-        if (conclusion.output == static_cast<std::size_t>(index)) conclusion.term = kept[conclusion.term];
-    output.terms = std::move(terms);
+  bool sets(std::size_t rule, std::size_t output) const {
+    const auto& all = system_.rules[rule].conclusions;
+    return std::any_of(all.begin(), all.end(), [&](const Conclusion& each) { return each.output == output; });
   }
-
-  const Term& termOf(const Conclusion& conclusion) const {
-    return system_.outputs[conclusion.output].terms[conclusion.term];
-  }
-
-  /// More digits would claim what a fit does not know.
-  static double rounded(double value) { return *readNumber(numberText(value, 6)); }
 
   const System& system_;
   System made_;
   RuleGrid grid_;
+  Surface surface_;
 };
 
-void say(const Variable& output, const Difference& difference, bool accept, Lines& lines) {
-  const double range = std::max(output.range.high - output.range.low, difference.high - difference.low);
-  const double part = difference.most / range;
+/// What of an output the difference is compared with.
+double rangeOf(const Variable& output, const Difference& difference) {
+  return std::max(output.range.high - output.range.low, difference.high - difference.low);
+}
+
+void say(const Variable& output, const Difference& difference, bool good, Lines& lines) {
+  const double range = rangeOf(output, difference);
   const std::string text = "at most " + numberText(difference.most, 4) + " and on average " +
                            numberText(difference.sum / static_cast<double>(difference.places), 4) + ", " +
-                           numberText(100 * part, 3) + " % of " + numberText(range, 4) + ", at " +
-                           std::to_string(difference.places) + " places of a grid";
+                           numberText(100 * difference.most / range, 3) + " % of " + numberText(range, 4) +
+                           ", at " + std::to_string(difference.places) + " places of a grid";
   const std::string key = "difference of " + output.name;
   if (difference.places == 0)
     lines.refuseAt(output.where, key, "a rule that fires", "none within the ranges of the inputs");
-  else if (part > kMostDifference && !accept)
+  else if (!good)
     lines.refuseAt(output.where, key,
-                   "at most 5 % of its range between the file and constants for its outputs, "
-                   "or --accept-difference",
+                   "at most 5 % of its range between the file and constants for its outputs, or "
+                   "--accept-difference; no table of rules comes so near either",
                    text);
   else
     lines.noteAt(output.where, key, text + ", between the file and constants for its outputs");
+}
+
+/// Says that the file's rules are gone.
+void sayTable(const System& system, const System& table, double worst, Lines& lines) {
+  std::string levels;
+  for (const Variable& input : table.inputs)
+    levels += (levels.empty() ? "" : ", ") + std::to_string(input.terms.size()) + " levels of " +
+              input.name.substr(0, 40);
+  lines.warnAt(system.rules.front().where, "rules",
+               "the " + std::to_string(system.rules.size()) +
+                   " rules of the file were replaced by a table of " + std::to_string(table.rules.size()) +
+                   " rules, " + levels + "; with constants they differ from the file by up to " +
+                   numberText(100 * worst, 3) +
+                   " % of an output's range, and --accept-difference imports them so");
 }
 
 }  // namespace
@@ -281,20 +257,39 @@ Result<System> orderZeroOf(System system, const std::string& where, bool acceptD
   Lines lines({}, where);
   for (Variable& output : system.outputs) useConstants(output);
   System made = system;
-  for (Variable& input : made.inputs) usePoints(input, lines);
-  if (!lines.empty()) return lines.findings();
+  Lines points({}, where);
+  for (Variable& input : made.inputs) usePoints(input, points);
+  if (!points.empty()) return points.findings();
+  Findings notes = points.findings();
   if (system.mamdani || std::any_of(system.outputs.begin(), system.outputs.end(), hasPlanes)) {
     checkSurface(system, lines);
     if (!lines.empty()) return lines.findings();
-    Reduction reduction(system, std::move(made));
-    made = reduction.run();
-    const auto differences = reduction.differences();
+    const Reduction reduction(system, std::move(made));
+    made = reduction.withRules();
+    auto differences = reduction.differencesOf(made);
+    std::vector<double> most;
+    double worst = 0;
+    for (std::size_t o = 0; o < differences.size(); ++o) {
+      most.push_back(kMostDifference * rangeOf(system.outputs[o], differences[o]));
+      worst = std::max(worst, kMostDifference * differences[o].most / most[o]);
+    }
+    bool good = worst <= kMostDifference || acceptDifference;
+    if (!good)
+      if (auto table = reduction.table(most)) {
+        notes.clear();  // its terms have no points
+        sayTable(system, *table, worst, lines);
+        made = std::move(*table);
+        differences = reduction.differencesOf(made);
+        good = true;
+      }
     for (std::size_t o = 0; o < differences.size(); ++o)
-      if (system.mamdani || hasPlanes(system.outputs[o]))
-        say(system.outputs[o], differences[o], acceptDifference, lines);
+      if (good ? reduction.needsConstants(o) : differences[o].most > most[o])
+        say(system.outputs[o], differences[o], good, lines);
   }
   if (!lines.empty()) return lines.findings();
-  return {std::move(made), lines.findings()};
+  const Findings more = lines.findings();
+  notes.insert(notes.end(), more.begin(), more.end());
+  return {std::move(made), std::move(notes)};
 }
 
 }  // namespace trimtab::fuzzy_system

@@ -177,6 +177,11 @@ class Translation {
 
   void addRule(const fuzzy_system::Rule& rule) {
     PolicyRule made{rule.condition, {}, rule.weight, rule.enabled, rule.reason};
+    if (rule.weight > 1)
+      refuse(rule.where, "weight",
+             "a weight from 0 to 1; divide all weights of the file by the greatest, which leaves weighted "
+             "averages as they are",
+             numberText(rule.weight));
     for (const fuzzy_system::Conclusion& conclusion : rule.conclusions) {
       const auto& output = system_.outputs[conclusion.output];
       const fuzzy_system::Term& term = output.terms[conclusion.term];

@@ -28,6 +28,10 @@ double membershipOf(const Proposition& part, const Variable& input, double x) {
 
 }  // namespace
 
+double weightOf(const Rule& rule) {
+  return rule.enabled ? rule.weight : 0;
+}
+
 RuleGrid::RuleGrid(const std::vector<Variable>& inputs, std::size_t most) : inputs_(inputs) {
   const auto cells = [&inputs](std::size_t side) {
     return std::pow(static_cast<double>(side), static_cast<double>(inputs.size()));
@@ -93,13 +97,8 @@ MamdaniOutput::MamdaniOutput(const System& system, std::size_t output) : system_
   }
 }
 
-double MamdaniOutput::centroidOf(std::size_t term) const {
-  double area = 0, moment = 0;
-  for (std::size_t i = 0; i < y_.size(); ++i) {
-    area += term_[term][i];
-    moment += term_[term][i] * y_[i];
-  }
-  return moment / area;
+bool MamdaniOutput::hasArea(std::size_t term) const {
+  return std::any_of(term_[term].begin(), term_[term].end(), [](double y) { return y > 0; });
 }
 
 void MamdaniOutput::aggregate(const std::vector<double>& firing) {
@@ -144,6 +143,44 @@ double MamdaniOutput::value(const std::vector<double>& firing) {
   if (how == "som") return highest.front();
   if (how == "lom") return highest.back();
   return std::accumulate(highest.begin(), highest.end(), 0.0) / static_cast<double>(highest.size());
+}
+
+namespace {
+
+double planeAt(const Term& term, const RuleGrid& grid, const std::vector<std::size_t>& step) {
+  double value = term.numbers.back();
+  if (term.shape == "Linear")
+    for (std::size_t i = 0; i < step.size(); ++i) value += term.numbers[i] * grid.x(i, step[i]);
+  return value;
+}
+
+}  // namespace
+
+Surface surfaceOf(const System& system, const RuleGrid& grid) {
+  Surface surface(system.outputs.size(), std::vector<double>(grid.places()));
+  std::vector<MamdaniOutput> mamdani;
+  for (std::size_t o = 0; system.mamdani && o < system.outputs.size(); ++o) mamdani.emplace_back(system, o);
+  RuleFirings firings(system, grid);
+  std::vector<std::size_t> step;
+  std::vector<double> weighted, sum, weight;
+  for (std::size_t place = 0; place < grid.places(); ++place) {
+    grid.stepsTo(place, step);
+    weighted = firings.at(step);
+    for (std::size_t r = 0; r < weighted.size(); ++r) weighted[r] *= weightOf(system.rules[r]);
+    for (std::size_t o = 0; o < mamdani.size(); ++o) surface[o][place] = mamdani[o].value(weighted);
+    if (system.mamdani) continue;
+    sum.assign(surface.size(), 0);
+    weight.assign(surface.size(), 0);
+    for (std::size_t r = 0; r < weighted.size(); ++r)
+      for (const Conclusion& conclusion : system.rules[r].conclusions)
+        if (weighted[r] > 0) {
+          sum[conclusion.output] +=
+              weighted[r] * planeAt(system.outputs[conclusion.output].terms[conclusion.term], grid, step);
+          weight[conclusion.output] += weighted[r];
+        }
+    for (std::size_t o = 0; o < surface.size(); ++o) surface[o][place] = sum[o] / weight[o];
+  }
+  return surface;
 }
 
 }  // namespace trimtab::fuzzy_system

@@ -8,6 +8,9 @@
 /// The outputs of a rule file as functions of its inputs, sampled on a grid over the inputs' ranges.
 namespace trimtab::fuzzy_system {
 
+/// Returns the weight of a rule; 0 if it is switched off.
+double weightOf(const Rule& rule);
+
 /// An even grid with at most as many places as asked for, ends included.
 class RuleGrid {
  public:
@@ -53,8 +56,8 @@ class MamdaniOutput {
   MamdaniOutput(const System& system, std::size_t output);
   /// Returns the value; NaN if no rule fires. `firing` holds weights too.
   double value(const std::vector<double>& firing);
-  /// Returns the centroid of one term within the output's range; NaN if it has no area there.
-  double centroidOf(std::size_t term) const;
+  /// Reports whether a term has an area within the output's range.
+  bool hasArea(std::size_t term) const;
 
  private:
   /// Puts the membership of each y in what the rules conclude together into sum_.
@@ -66,5 +69,10 @@ class MamdaniOutput {
   std::vector<std::vector<double>> term_;  ///< the membership of each term there
   std::vector<double> sum_;
 };
+
+/// The value of each output at each place of a grid; NaN where no rule fires that sets it.
+using Surface = std::vector<std::vector<double>>;
+/// Takes a system whose terms all have numbers that suit their shapes.
+Surface surfaceOf(const System& system, const RuleGrid& grid);
 
 }  // namespace trimtab::fuzzy_system

@@ -38,6 +38,10 @@ class Lines {
   void noteAt(std::string place, std::string_view key, std::string found) {
     findings_.add({Severity::note, std::move(place), std::string(key), "", std::move(found)});
   }
+  /// Says what an import lost that its user may miss.
+  void warnAt(std::string place, std::string_view key, std::string found) {
+    findings_.add({Severity::warning, std::move(place), std::string(key), "", std::move(found)});
+  }
   /// Reports whether nothing was refused.
   bool empty() const { return !findings_.hasError(); }
   /// Returns why something was refused; notes only if nothing was.

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/core/terrain/baked_sample.h"
 #include "tests/support.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
@@ -29,16 +30,8 @@ namespace trimtab::test {
 /// A few kilometres of the sample terrain as a baked database; made once a program.
 inline const std::filesystem::path& smallTerrain() {
   static const ScratchDir dir;
-  static const std::filesystem::path database = [] {
-    const auto sample = terrain::writeSample(dir / "sample.tif", {3, 12, 60, {}});
-    EXPECT_TRUE(sample) << toString(sample.findings());
-    terrain::BakeOptions options;
-    options.sources = {dir / "sample.tif"};
-    options.output = dir / "terrain";
-    const auto baked = terrain::bake(options);
-    EXPECT_TRUE(baked) << toString(baked.findings());
-    return dir / "terrain";
-  }();
+  static const bool baked = bakedSample(dir.path(), {3, 12, 60, {}}) != nullptr;
+  static const std::filesystem::path database = baked ? dir / "terrain" : std::filesystem::path();
   return database;
 }
 

@@ -19,6 +19,7 @@
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/window/main_window.h"
+#include "tests/core/terrain/baked_sample.h"
 #include "tests/support.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/terrain/bake/bake.h"
@@ -64,16 +65,8 @@ class DialogCloser {
 /// per test program.
 inline const std::filesystem::path& sampleTerrain() {
   static const ScratchDir dir;
-  static const std::filesystem::path database = [] {
-    const auto sample = terrain::writeSample(dir / "sample.tif", {1, 60, 120, {}});
-    EXPECT_TRUE(sample) << toString(sample.findings());
-    terrain::BakeOptions options;
-    options.sources = {dir / "sample.tif"};
-    options.output = dir / "terrain";
-    const auto baked = terrain::bake(options);
-    EXPECT_TRUE(baked) << toString(baked.findings());
-    return dir / "terrain";
-  }();
+  static const bool baked = bakedSample(dir.path(), {1, 60, 120, {}}) != nullptr;
+  static const std::filesystem::path database = baked ? dir / "terrain" : std::filesystem::path();
   return database;
 }
 

@@ -9,12 +9,12 @@
 #include "app/experiment/head_motion_run.h"
 #include "app/experiment/hold_run.h"
 #include "app/experiment/weather_view.h"
+#include "tests/app/experiment/piece_of_terrain.h"
 #include "tests/app/experiment/straight_flight.h"
 #include "tests/support.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/host/head_log.h"
 #include "trimtab/preset/preset.h"
-#include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/synthetic/land_picture.h"
 #include "trimtab/terrain/synthetic/sample.h"
@@ -26,42 +26,7 @@ using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-/// A small piece of the sample terrain, baked once.
-class Experiment : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_ = std::make_unique<test::ScratchDir>();
-    terrain::SampleOptions sample;
-    sample.sizeKm = 12;
-    ASSERT_TRUE(terrain::writeSample(*folder_ / "sample.tif", sample));
-    terrain::BakeOptions bake;
-    bake.sources = {*folder_ / "sample.tif"};
-    bake.output = *folder_ / "db";
-    const auto baked = terrain::bake(bake);
-    ASSERT_TRUE(baked) << toString(baked.findings());
-    terrain_ = *baked;
-  }
-  static void TearDownTestSuite() {
-    terrain_.reset();
-    folder_.reset();
-  }
-
-  static experiment::Setup setup() {
-    experiment::Setup setup;
-    setup.terrain = terrain_;
-    setup.terrainName = "piece";
-    setup.presetName = "default";
-    setup.widthPx = 160;
-    setup.heightPx = 90;
-    setup.repeats = 1;
-    return setup;
-  }
-
-  static std::unique_ptr<test::ScratchDir> folder_;
-  static std::shared_ptr<const terrain::Database> terrain_;
-};
-std::unique_ptr<test::ScratchDir> Experiment::folder_;
-std::shared_ptr<const terrain::Database> Experiment::terrain_;
+class Experiment : public test::PieceOfTerrain {};
 
 TEST_F(Experiment, cullingDrawsEveryPictureAsWithoutItAndFewerTriangles) {
   const auto report = runCulling(setup());

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "app/experiment/stage.h"
+#include "tests/app/experiment/piece_of_terrain.h"
 #include "tests/app/experiment/straight_flight.h"
 #include "tests/support.h"
 #include "trimtab/scene/data_extent.h"
@@ -25,33 +26,10 @@ using ::testing::HasSubstr;
 constexpr std::size_t kFrames = 6;
 
 /// A straight and level flight of ten seconds over a small piece of the sample terrain.
-class LeverageTest : public ::testing::Test {
+class LeverageTest : public test::PieceOfTerrain {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = std::make_unique<test::ScratchDir>();
-    terrain::SampleOptions sample;
-    sample.sizeKm = 12;
-    ASSERT_TRUE(terrain::writeSample(*folder_ / "sample.tif", sample));
-    terrain::BakeOptions bake;
-    bake.sources = {*folder_ / "sample.tif"};
-    bake.output = *folder_ / "db";
-    const auto baked = terrain::bake(bake);
-    ASSERT_TRUE(baked) << toString(baked.findings());
-    terrain_ = *baked;
-  }
-  static void TearDownTestSuite() {
-    terrain_.reset();
-    folder_.reset();
-  }
-
   static experiment::Setup setup() {
-    experiment::Setup setup;
-    setup.terrain = terrain_;
-    setup.terrainName = "piece";
-    setup.presetName = "default";
-    setup.widthPx = 160;
-    setup.heightPx = 90;
-    setup.repeats = 1;
+    experiment::Setup setup = PieceOfTerrain::setup();
     setup.frames = kFrames;
     setup.flight = test::straightFlight(*terrain_, 0.3, 10);
     return setup;
@@ -62,12 +40,7 @@ class LeverageTest : public ::testing::Test {
       if (row.lever == lever) return row;
     throw std::logic_error("a lever has no row");
   }
-
-  static std::unique_ptr<test::ScratchDir> folder_;
-  static std::shared_ptr<const terrain::Database> terrain_;
 };
-std::unique_ptr<test::ScratchDir> LeverageTest::folder_;
-std::shared_ptr<const terrain::Database> LeverageTest::terrain_;
 
 TEST_F(LeverageTest, measuresEachLeverFromOneEndOfItsUsualRangeToTheOther) {
   const experiment::Setup s = setup();

@@ -11,6 +11,7 @@
 #include <random>
 #include <string>
 
+#include "tests/core/fuzzy/published_tables.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/units/not_finite.h"
 
@@ -69,36 +70,19 @@ ValidatedParameters asPublished() {
   return valid(preset ? preset->parameters : kDefaults);
 }
 
-struct Printed {
-  double x;
-  const char* membership;
-};
-// Table 1 and Table 2 of documents A and B, as printed (published/*.csv).
-constexpr Printed kAltitude[] = {{4000, "1.0"},   {4010, "0.996"}, {5000, "0.600"}, {5010, "0.597"},
-                                 {6000, "0.300"}, {6010, "0.298"}, {7000, "0.1"},   {7010, "0.099"},
-                                 {7990, "0.001"}, {8000, "0.0"}};
-constexpr Printed kPitch[] = {{30, "0"},     {29, "0.017"},  {1, "0.493"}, {0, "0.5"},
-                              {-1, "0.507"}, {-29, "0.983"}, {-30, "1.0"}};
-struct PrintedBand {
-  double high, low;
-  int width, height;
-};
-constexpr PrintedBand kBands[] = {
-    {2.0, 1.5, 800, 600}, {1.5, 1.0, 640, 480}, {1.0, 0.5, 400, 300}, {0.5, 0.1, 320, 240}};
-
 TEST(Decide, reproducesEveryPublishedRowAsPublished) {
   const ValidatedParameters p = asPublished();
-  for (const Printed& row : kAltitude)
+  for (const test::Printed& row : test::kPrintedAltitude)
     EXPECT_EQ(decimals(first(flying(row.x, 0), p).altitudeMembership, row.membership), row.membership)
         << row.x;
-  for (const Printed& row : kPitch)
+  for (const test::Printed& row : test::kPrintedPitch)
     EXPECT_EQ(decimals(first(flying(0, row.x), p).pitchMembership, row.membership), row.membership) << row.x;
   // A total by way of pitch: below 4,000 ft from 1 up, above 8,000 ft down to 0.
   for (double altitude = 0; altitude < 9000; altitude += 90) {
     for (double pitch = -40; pitch < 40; pitch += 0.7) {
       const FrameDecision d = first(flying(altitude, pitch), p);
-      const PrintedBand* band = nullptr;
-      for (const PrintedBand& b : kBands)
+      const test::PrintedBand* band = nullptr;
+      for (const test::PrintedBand& b : test::kPrintedBands)
         if (d.totalMembership >= b.low && (d.totalMembership < b.high || b.high == 2.0)) band = &b;
       ASSERT_EQ(d.scheme, band ? Scheme::dynamic : Scheme::frustum);
       ASSERT_EQ(d.occlusionResolution,
@@ -109,7 +93,7 @@ TEST(Decide, reproducesEveryPublishedRowAsPublished) {
 
 TEST(Decide, reproducesEveryPublishedAltitudeByDefault) {
   const ValidatedParameters p = defaultParameters();
-  for (const Printed& row : kAltitude)
+  for (const test::Printed& row : test::kPrintedAltitude)
     EXPECT_EQ(decimals(first(flying(row.x, 0), p).altitudeMembership, row.membership), row.membership)
         << row.x;
 }
@@ -118,7 +102,7 @@ TEST(Decide, asPrintedMissesThePublishedAltitudesInOneRow) {
   const Result<Preset> preset = loadPreset("as-printed");
   ASSERT_TRUE(preset.ok()) << toString(preset.findings());
   const ValidatedParameters p = valid(preset->parameters);
-  for (const Printed& row : kAltitude) {
+  for (const test::Printed& row : test::kPrintedAltitude) {
     const double value = first(flying(row.x, 0), p).altitudeMembership;
     if (row.x == 7990)
       EXPECT_EQ(decimals(value, "0.001"), "0.099");

@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 
+#include "tests/core/fuzzy/published_tables.h"
 #include "trimtab/fuzzy/membership.h"
 #include "trimtab/preset/parameters.h"
 
@@ -20,16 +21,8 @@ const BandList kPublished = SchemeParameters{}.bands;
 /// The least that is surely more than rounding.
 constexpr double kBelow = 1e-11;
 
-/// Table 2 of documents A and B (published/depth_map_bands.csv): high, low, width, height.
-struct PrintedBand {
-  double high, low;
-  int width, height;
-};
-constexpr PrintedBand kTable[] = {
-    {2.0, 1.5, 800, 600}, {1.5, 1.0, 640, 480}, {1.0, 0.5, 400, 300}, {0.5, 0.1, 320, 240}};
-
 TEST(Bands, reproduceThePublishedSizesOverEachHalfOpenRange) {
-  for (const PrintedBand& row : kTable) {
+  for (const test::PrintedBand& row : test::kPrintedBands) {
     for (const double total : {row.low, (row.low + row.high) / 2, row.high - kBelow}) {
       const int band = bandOf(kPublished, total);
       ASSERT_GE(band, 0) << total;

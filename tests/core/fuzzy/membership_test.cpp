@@ -13,23 +13,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/core/fuzzy/published_tables.h"
+
 namespace trimtab {
 namespace {
 
 /// Copied from, not made in place: g++ 12 takes a default made in a function for uninitialised.
 const AltitudeParameters kTable;
 const PitchParameters kLine;
-
-/// Table 1 of documents A and B (published/altitude_membership.csv, pitch_membership.csv), as printed.
-struct Printed {
-  double x;
-  const char* membership;
-};
-constexpr Printed kAltitude[] = {{4000, "1.0"},   {4010, "0.996"}, {5000, "0.600"}, {5010, "0.597"},
-                                 {6000, "0.300"}, {6010, "0.298"}, {7000, "0.1"},   {7010, "0.099"},
-                                 {7990, "0.001"}, {8000, "0.0"}};
-constexpr Printed kPitch[] = {{30, "0"},     {29, "0.017"},  {1, "0.493"}, {0, "0.5"},
-                              {-1, "0.507"}, {-29, "0.983"}, {-30, "1.0"}};
 
 /// With as many decimals as the paper printed.
 std::string likePrinted(double value, const std::string& printed) {
@@ -55,7 +46,7 @@ PitchParameters roundedStep() {
 }
 
 TEST(AltitudeMembership, reproducesThePublishedTable) {
-  for (const Printed& row : kAltitude) {
+  for (const test::Printed& row : test::kPrintedAltitude) {
     const double value = altitudeMembership(kTable, row.x);
     EXPECT_EQ(likePrinted(value, row.membership), row.membership) << row.x << " ft";
     EXPECT_NEAR(value, std::stod(row.membership), 0.0005) << row.x << " ft";
@@ -63,7 +54,7 @@ TEST(AltitudeMembership, reproducesThePublishedTable) {
 }
 
 TEST(AltitudeMembership, equationAMissesThePublishedTableInOneRowOnly) {
-  for (const Printed& row : kAltitude) {
+  for (const test::Printed& row : test::kPrintedAltitude) {
     const double value = altitudeMembership(reading(AltitudeReading::equation_a), row.x);
     if (row.x == 7990)
       EXPECT_EQ(threeDecimals(value), "0.099");
@@ -98,7 +89,7 @@ TEST(AltitudeMembership, equationsAreZeroFromTheirMaximumUp) {
 }
 
 TEST(PitchMembership, roundedStepReproducesThePublishedTable) {
-  for (const Printed& row : kPitch)
+  for (const test::Printed& row : test::kPrintedPitch)
     EXPECT_EQ(likePrinted(pitchMembership(roundedStep(), row.x), row.membership), row.membership)
         << row.x << " deg";
 }

@@ -152,7 +152,8 @@ TEST(BadPolicyFile, inFuzzyLiteLanguageIsRefusedWithLineExpectedAndFound) {
        {"with 0.5", "with", "f.fll:17: rule: expected a weight, found the end of the line"},
        {"with 0.5", "with -1", "f.fll:17: rules.1: expected a weight from 0 to 1, found -1"},
        {"with 0.5", "with nan", "f.fll:17: rules.1: expected a weight from 0 to 1, found nan"},
-       {"with 0.5", "with 1.5", "f.fll:17: rules.1: expected a weight from 0 to 1, found 1.5"},
+       {"with 0.5", "with 1.5",
+        "f.fll:17: weight: expected a weight from 0 to 1; divide all weights of the file"},
        {"with 0.5", "with 0.5 0.5", "f.fll:17: rule: expected the end of the line, found 0.5"},
        {"is step", "is gone", "f.fll:18: rules.2: expected a term of speed: fast, step, found gone"}});
   std::string joint = kBadLanguages[0].good;
@@ -218,7 +219,7 @@ TEST(BadPolicyFile, inMatlabsLanguageIsRefusedWithLineExpectedAndFound) {
         "f.fis:17: Rules: expected terms of inputs, terms of outputs (weight) : 1"},
        {"(0.5) : 1", "(0.5) : 3", "f.fis:17: Rules: expected 1 for and, or 2 for or, found 3"},
        {"(0.5)", "(nan)", "f.fis:17: rules.1: expected a weight from 0 to 1, found nan"},
-       {"(0.5)", "(2)", "f.fis:17: rules.1: expected a weight from 0 to 1, found 2"},
+       {"(0.5)", "(2)", "f.fis:17: weight: expected a weight from 0 to 1; divide all weights of the file"},
        {"% rule: 2,", "% rule: 7,", "f.fis:18: Rules: expected the number of a term of speed, found 7"}});
 }
 

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "tests/core/scene/scene_test.h"
+#include "tests/core/terrain/baked_sample.h"
 #include "trimtab/policy/compiled_policy.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/session/session.h"
@@ -33,16 +34,8 @@ class PolicyLoop : public test::SceneTest, public testing::WithParamInterface<co
 
   static std::shared_ptr<const terrain::Database> sample() {
     static const test::ScratchDir dir;
-    static const auto baked = [] {
-      terrain::SampleOptions options;
-      options.sizeKm = 60;
-    options.postM = 90;
-      const auto written = terrain::writeSample(dir / "sample.tif", options);
-      EXPECT_TRUE(written) << toString(written.findings());
-      return terrain::openOrBake(dir / "sample.tif", dir / "cache", {});
-    }();
-    EXPECT_TRUE(baked) << toString(baked.findings());
-    return baked ? *baked : nullptr;
+    static const auto baked = test::bakedSample(dir.path(), {1, 60, 90, {}});
+    return baked;
   }
 
   AircraftState viewAt(double aboveM, double headingDeg) const {

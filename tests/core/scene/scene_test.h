@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "tests/core/scene/terrain/synthetic_terrain.h"
+#include "tests/core/terrain/baked_sample.h"
 #include "tests/shared_scene.h"
 #include "tests/support.h"
 #include "trimtab/scene/data_extent.h"
@@ -49,18 +50,18 @@ class SceneTest : public testing::Test {
     use(bakeShared(folder));
     return database != nullptr;
   }
+  /// Returns the largest difference of two pixels in red, green or blue.
+  static int largestStep(const std::vector<std::uint8_t>& rgba, std::size_t a, std::size_t b) {
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      most = std::max(most, std::abs(int{rgba[4 * a + c]} - int{rgba[4 * b + c]}));
+    return most;
+  }
   /// The sample, of posts far enough apart to be made within a second.
   bool useSample() {
-    terrain::SampleOptions options;
-    options.postM = 90;
     sampleDir_ = std::make_unique<ScratchDir>();
-    const auto written = terrain::writeSample(*sampleDir_ / "sample.tif", options);
-    EXPECT_TRUE(written) << toString(written.findings());
-    if (!written) return false;
-    auto baked = terrain::openOrBake(*sampleDir_ / "sample.tif", *sampleDir_ / "cache", {});
-    EXPECT_TRUE(baked) << toString(baked.findings());
-    if (baked) use(baked.value());
-    return baked.ok();
+    if (auto baked = bakedSample(sampleDir_->path(), {1, 100, 90, {}})) use(std::move(baked));
+    return database != nullptr;
   }
 
   /// bakedOnce; none when it cannot be.

@@ -31,13 +31,6 @@ WeatherDecision hazeAt(Metres height, double visibilityM, double topM, std::opti
   return decideWeather(state, p, highest);
 }
 
-int largestStep(const Pixels8& rgba, std::size_t a, std::size_t b) {
-  int most = 0;
-  for (std::size_t c = 0; c < 3; ++c)
-    most = std::max(most, std::abs(int{rgba[4 * a + c]} - int{rgba[4 * b + c]}));
-  return most;
-}
-
 class HazeLayerPicture : public SceneTest {
  protected:
   static constexpr double kPitch = -4;

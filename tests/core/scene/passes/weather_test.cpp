@@ -35,13 +35,6 @@ std::array<double, 3> fogLevels(double extinction) {
   return levels;
 }
 
-int largestStepIn(const Pixels8& rgba, std::size_t a, std::size_t b) {
-  int most = 0;
-  for (std::size_t c = 0; c < 3; ++c)
-    most = std::max(most, std::abs(int{rgba[4 * a + c]} - int{rgba[4 * b + c]}));
-  return most;
-}
-
 class Weather : public SceneTest {
  protected:
   FrameRequest level(double aboveM, double heading = 30, double pitch = -5) const {
@@ -144,7 +137,7 @@ TEST_F(Weather, isTheFormulaInTheSkyAndGreyAllOverInThickFog) {
     EXPECT_GT(sky, std::size_t{kWidth} * kHeight / 4);
     if (visibility > 50) continue;
     for (std::size_t i = 1; i < metres.size(); ++i)
-      ASSERT_LE(largestStepIn(shown, 0, i), 1) << "a wall of grey";
+      ASSERT_LE(largestStep(shown, 0, i), 1) << "a wall of grey";
   }
 }
 
@@ -212,7 +205,7 @@ TEST_F(Weather, showsTheSameRidgeAsClearAirUpToTheCutAndNothingBeyond) {
         gone += std::isfinite(d);
         // Where the ground stops for the cut's sake, nothing marks the place.
         if (i >= kWidth && std::isfinite(cut[i - kWidth]) && double{cut[i - kWidth]} > 0.97 * farM)
-          edge = std::max(edge, largestStepIn(shown, i, i - kWidth));
+          edge = std::max(edge, largestStep(shown, i, i - kWidth));
       }
     }
     EXPECT_EQ(wrong, 0u) << farM;
@@ -241,7 +234,7 @@ TEST_F(Weather, hasNoLineAtTheHorizonAtAnyVisibility) {
       for (std::size_t i = kWidth; i < metres.size(); ++i) {
         if (!std::isinf(metres[i])) continue;
         const double below = double{metres[i - kWidth]};
-        const int step = largestStepIn(shown, i, i - kWidth);
+        const int step = largestStep(shown, i, i - kWidth);
         if (std::isinf(below))
           sky = std::max(sky, step);
         else  // no more than what the fog leaves of the last ground
@@ -284,7 +277,7 @@ TEST_F(Weather, isDefinedAtVisibilitiesThatAreNone) {
   r.decision.weather = fog(0, 0);
   r.levers.drawn.farM = r.decision.weather.farM;
   const Pixels8 nothing = picture(r);
-  for (std::size_t i = 1; i < nothing.size() / 4; ++i) ASSERT_LE(largestStepIn(nothing, 0, i), 1);
+  for (std::size_t i = 1; i < nothing.size() / 4; ++i) ASSERT_LE(largestStep(nothing, 0, i), 1);
   r.decision.weather = fog(kNan, kNan);
   r.levers.drawn.farM = r.decision.weather.farM;
   EXPECT_EQ(differing(clear, picture(r)), 0u);

@@ -30,7 +30,7 @@ Result<std::string> policyFileText(const Policy& policy, const std::string& name
 /// Says how a file is read whose variables are no signals and levers, or whose outputs are no constants.
 struct RuleFileOptions {
   std::vector<RuleVariable> mapping;
-  bool acceptDifference = false;  ///< reads a file however far the policy is from it
+  bool acceptDifference = false;  ///< keeps the file's rules however far the policy is from it
 };
 
 /// Reads such a text, also if fuzzylite has read and written it since, and MATLAB's files as people have
@@ -38,8 +38,9 @@ struct RuleFileOptions {
 /// signals, and a negated group comes back as negated terms.
 ///
 /// What a policy can only come near to is read with a note that says how near: shapes that become points, and
-/// outputs that become constants (see resources/docs/policy.md). An output that differs by more than 5 % of
-/// its range somewhere on a grid is refused unless the options accept it.
+/// outputs that become constants (see resources/docs/policy.md). Where an output differs by more than 5 % of
+/// its range somewhere on a grid, a table of rules replaces the file's rules, with a warning, unless the
+/// options accept the difference; the file is refused if no table comes nearer.
 ///
 /// Everything else that a policy cannot say is refused with file, line, expected and found, one finding each:
 /// unknown signals and levers, other shapes, outputs that have a default, other norms and defuzzifiers,
