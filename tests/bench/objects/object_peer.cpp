@@ -69,7 +69,8 @@ osg::ref_ptr<osg::Geometry> geometryOf(const terrain::ObjectTerrain& objects, st
 
 struct ObjectPeer::Impl {
   osg::ref_ptr<osgViewer::Viewer> viewer = new osgViewer::Viewer;
-  osg::ref_ptr<osg::Group> root = new osg::Group;
+  osg::ref_ptr<osg::Group> root = new osg::Group;     ///< with the state
+  osg::ref_ptr<osg::Group> planted = new osg::Group;  ///< of which all instances are children's children
   CullTraversal traversal;
 
   Impl(const terrain::ObjectTerrain& objects, const CutRule& rule, int width, int height) {
@@ -129,8 +130,9 @@ struct ObjectPeer::Impl {
         place->addChild(lod);
         group->addChild(place);
       }
-      root->addChild(group);
+      planted->addChild(group);
     }
+    root->addChild(planted);
     root->getBound();
   }
 };
@@ -144,7 +146,7 @@ ObjectPeer::Frame ObjectPeer::draw(const EyePose& eye, const ViewShape& view) {
   shape.nearM = kNearM;
   Frame frame;
   double start = monotonicSeconds();
-  frame.drawables = impl_->traversal.cull(*impl_->root, eye, shape);
+  frame.drawables = impl_->traversal.cull(*impl_->planted, eye, shape);
   frame.cullMs = 1e3 * (monotonicSeconds() - start);
   osg::Camera* camera = impl_->viewer->getCamera();
   camera->setViewMatrix(viewOf(eye));
