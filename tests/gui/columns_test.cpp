@@ -269,5 +269,20 @@ TEST_F(Columns, thatWereFoundAreChangedByTheirUnitAlone) {
   EXPECT_EQ(flight().states[0].attitude.pitch.value(), -5);
 }
 
+TEST_F(Columns, ofAKnownProgramKeepTheirScaleWhenAnotherNumberChanges) {
+  drop(fileOf("jsb.csv",
+              "Time,Altitude ASL (ft),Altitude AGL (ft),Phi (deg),Theta (deg),Psi (deg),Latitude (deg),"
+              "Longitude (deg)\n0.5,6000,1000,4,-2.5,271,46.5,8.25\n0.7,6002,1000,4,-2.5,271,46.5,8.25\n"));
+  ASSERT_EQ(flight().states.size(), 2U) << w().messages().text().toStdString();
+  hand_->press(*w().panels().flight, "Columns");
+  EXPECT_EQ(named<QLineEdit>("Scale of Height above ground").text(), "0.3048");
+  auto& offset = named<QLineEdit>("Offset of Height above ground");
+  offset.setFocus();
+  offset.selectAll();
+  hand_->type("30.48");
+  EXPECT_TRUE(reading().contains("above ground 1,100 to 1,100 ft")) << reading().toStdString();
+  hand_->press(dialog(), "Cancel");
+}
+
 }  // namespace
 }  // namespace trimtab::test

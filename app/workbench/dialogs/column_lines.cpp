@@ -65,6 +65,8 @@ ColumnLines::Line ColumnLines::makeLine(const LogQuantity& quantity, const Colum
   Line line{&quantity,
             {},
             0,
+            1,
+            0,
             new Chooser(tr("Column of %1").arg(name)),
             new Chooser(tr("Unit of %1").arg(name)),
             new ConversionEdit(name)};
@@ -74,6 +76,8 @@ ColumnLines::Line ColumnLines::makeLine(const LogQuantity& quantity, const Colum
     if (const auto at = found.find(key.key); at != found.end()) {
       line.found = columnOf(at->second);
       line.foundKey = i;
+      line.foundScale = at->second.scale;
+      line.foundOffset = at->second.offset;
     }
   }
   line.column->addItem(line.found.isEmpty() ? tr("none found") : tr("%1 (found)").arg(line.found));
@@ -96,7 +100,7 @@ std::pair<const ColumnLines::Line*, std::size_t> ColumnLines::lineOf(const std::
 void ColumnLines::leave(const Line& line) {
   line.column->setCurrentIndex(kAsFound);
   line.unit->setCurrentIndex(static_cast<int>(line.foundKey));
-  line.conversion->set(1, 0);
+  line.conversion->set(line.foundScale, line.foundOffset);
   const bool found = !line.found.isEmpty();
   line.unit->setEnabled(found && line.quantity->keys.size() > 1);
   line.conversion->setEnabled(found);

@@ -46,6 +46,7 @@ class ColumnLines : public QWidget {
     const LogQuantity* quantity;
     QString found;  ///< the column that the reader finds by its name; empty: none
     std::size_t foundKey = 0;
+    double foundScale = 1, foundOffset = 0;  ///< of a known program's column in another unit
     views::Chooser *column, *unit;
     views::ConversionEdit* conversion;
   };

@@ -43,7 +43,7 @@ struct LogBeginning {
   ColumnMap found;  ///< where quantities are by the names of the columns, by keys of `logQuantities`
 };
 
-/// The part of a log that is looked at; a reader takes some 50 ms for so many bytes.
+/// The part of a log that is looked at; a reader takes some 100 ms for so many bytes.
 inline constexpr std::size_t kLogBeginning = std::size_t{1} << 20;
 
 /// Reads the first `mostBytes` of a log at most. Fails if it is no file, or no table of text.
