@@ -68,13 +68,18 @@ TEST_F(LogLook, takesWholeRowsOfALongLog) {
   EXPECT_GT(begin->text.size(), 970U);
   EXPECT_EQ(begin->rows.size(), 8U) << "a few rows show what they are";
 
+  // Each row holds two characters, U+0A15 and U+0100, between which the bytes of a line end stand.
   std::string wide = "\xff\xfe";
-  for (const char c : text) wide += std::string{c, '\0'};
-  const auto utf16 = look(wide, LogKind::head, 1001);
-  ASSERT_TRUE(utf16) << toString(utf16.findings());
-  EXPECT_EQ(utf16->text.size() % 2, 0U);
-  EXPECT_TRUE(utf16->text.ends_with(std::string_view("5\0\n\0", 4)));
-  EXPECT_TRUE(parseHeadLog(utf16->text, "h.csv"));
+  for (const char c : text) {
+    if (c == '\n') wide += std::string(",\0\x15\x0a\0\x01", 6);
+    wide += std::string{c, '\0'};
+  }
+  for (std::size_t most = 1000; most < 1060; ++most) {
+    const auto utf16 = look(wide, LogKind::head, most);
+    ASSERT_TRUE(utf16) << toString(utf16.findings());
+    EXPECT_EQ(utf16->text.size() % 2, 0U) << most;
+    EXPECT_TRUE(utf16->text.ends_with(std::string_view("\x01\n\0", 3))) << most;
+  }
 }
 
 TEST_F(LogLook, namesColumnsByNumberWhereNamesDoNot) {
