@@ -76,9 +76,8 @@ class KeyFinder {
       lines_.refuseAt("--map", each.variable, input ? keyList(kSignalRows) : keyList(kLeverRows), each.key);
       return {variable.name, std::string(kRefused), 1, 0};
     }
-    const std::string lower = lowered(variable.name.substr(0, 40));
-    if (!isKey(lower, input)) return {variable.name, "", 1, 0};
-    if (lower != variable.name)
+    const std::string lower = keyInName(variable.name, input);
+    if (!lower.empty() && lower != variable.name)
       lines_.noteAt(variable.where, "name", "'" + variable.name + "', read as " + lower);
     return {variable.name, lower, 1, 0};
   }
@@ -138,6 +137,11 @@ std::string renamed(const std::string& condition, const std::vector<RuleVariable
 }
 
 }  // namespace
+
+std::string keyInName(std::string_view name, bool input) {
+  std::string lower = lowered(name.substr(0, 40));
+  return isKey(lower, input) ? lower : std::string();
+}
 
 std::optional<Lever> leverOfOutput(std::string_view name) {
   return name == kFormerOutput ? Lever::occlusion : leverNamed(name);

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trimtab/policy/fuzzy_system.h"
@@ -24,6 +25,10 @@ Result<SystemKeys> keysOf(const System& system, std::span<const RuleVariable> ma
 /// Returns the system with these names, and with numbers in the units of signals and levers. Its inputs have
 /// shapes of a policy and its outputs constants.
 System mappedBy(const SystemKeys& keys, System system);
+
+/// Returns the key of the signal of an input, or of the lever of an output, that its name says in any
+/// letters; empty if it says none.
+std::string keyInName(std::string_view name, bool input);
 
 /// Returns the lever that an output of that name sets: its key, or the total of the former rule base.
 std::optional<Lever> leverOfOutput(std::string_view name);

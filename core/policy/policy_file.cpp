@@ -1,7 +1,9 @@
 #include "trimtab/policy/policy_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "condition.h"
@@ -9,6 +11,7 @@
 #include "mapped_system.h"
 #include "order_zero.h"
 #include "trimtab/policy/compiled_policy.h"
+#include "trimtab/policy/rule_file.h"
 #include "trimtab/units/finding_list.h"
 #include "trimtab/units/number.h"
 #include "words.h"
@@ -247,18 +250,76 @@ Result<std::string> policyFileText(const Policy& policy, const std::string& name
 
 Result<Policy> readPolicyFile(std::string_view text, const std::string& where, RuleFormat format,
                               const RuleFileOptions& options) {
-  const auto read = fuzzy_system::readSystem(text, where, format);
+  const auto file = RuleFile::open(text, where, format);
+  return file ? file->policy(options.mapping, options.acceptDifference) : file.findings();
+}
+
+struct RuleFile::State {
+  std::string where;
+  System system;
+  Findings notes;  ///< of reading it
+  std::vector<Variable> inputs, outputs;
+  /// With constants for its outputs, the second if any difference is accepted; unset until asked for.
+  std::array<std::optional<Result<System>>, 2> constant;
+
+  const Result<System>& withConstants(bool accept) {
+    auto& made = constant[accept];
+    if (!made) made = fuzzy_system::orderZeroOf(system, where, accept);
+    return *made;
+  }
+};
+
+Result<RuleFile> RuleFile::open(std::string_view text, const std::string& where, RuleFormat format) {
+  auto read = fuzzy_system::readSystem(text, where, format);
   if (!read) return read.findings();
-  const auto keys = fuzzy_system::keysOf(*read, options.mapping, where);
+  auto state = std::make_shared<State>();
+  state->where = where;
+  state->system = std::move(*read);
+  state->notes = read.findings();
+  for (const auto& input : state->system.inputs)
+    state->inputs.push_back({input.name, input.range, fuzzy_system::keyInName(input.name, true)});
+  for (const auto& output : state->system.outputs)
+    state->outputs.push_back({output.name, output.range, fuzzy_system::keyInName(output.name, false)});
+  return RuleFile(std::move(state));
+}
+
+const std::vector<RuleFile::Variable>& RuleFile::inputs() const {
+  return state_->inputs;
+}
+
+const std::vector<RuleFile::Variable>& RuleFile::outputs() const {
+  return state_->outputs;
+}
+
+const Findings& RuleFile::differences(bool acceptDifference) const {
+  return state_->withConstants(acceptDifference).findings();
+}
+
+bool RuleFile::acceptMatters() const {
+  return mappingMayHelp(differences(false));
+}
+
+Result<Policy> RuleFile::policy(std::span<const RuleVariable> mapping, bool acceptDifference) const {
+  const auto keys = fuzzy_system::keysOf(state_->system, mapping, state_->where);
   if (!keys) return keys.findings();
-  const auto system = fuzzy_system::orderZeroOf(*read, where, options.acceptDifference);
+  const auto& system = state_->withConstants(acceptDifference);
   if (!system) return system.findings();
-  auto policy = Translation(fuzzy_system::mappedBy(*keys, *system), where).run();
+  auto policy = Translation(fuzzy_system::mappedBy(*keys, *system), state_->where).run();
   if (!policy) return policy;
-  Findings notes = read.findings();
+  Findings notes = state_->notes;
   for (const Findings* more : {&keys.findings(), &system.findings()})
     notes.insert(notes.end(), more->begin(), more->end());
   return {std::move(*policy), std::move(notes)};
+}
+
+bool mappingMayHelp(const Findings& findings) {
+  return std::any_of(findings.begin(), findings.end(), [](const Finding& finding) {
+    const auto names = [&finding](std::string_view option) {
+      return finding.expected.find(option) != std::string::npos ||
+             finding.found.find(option) != std::string::npos;
+    };
+    return names("--map ") || names("--accept-difference");
+  });
 }
 
 }  // namespace trimtab

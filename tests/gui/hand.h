@@ -115,6 +115,9 @@ class Hand {
   }
   /// Does this in the next dialog, which a later step opens and waits for.
   void inDialog(std::function<void(QWidget&)> act) { awaited_.push_back(std::move(act)); }
+  /// Lets dialogs of these object names stay open: they do not keep the program in them, and the steps after
+  /// this one are done in them.
+  void workIn(const QStringList& dialogs) { staying_ = dialogs; }
   /// Types the name of a file into the next dialog, and Enter.
   void inFileDialog(const std::filesystem::path& file) {
     inDialog([this, name = QString::fromStdString(file.string())](QWidget& dialog) {
@@ -152,6 +155,7 @@ class Hand {
   void answer() {
     const QPointer<QWidget> dialog = QApplication::activeModalWidget();
     if (dialog == nullptr || dialog == current_) return;
+    if (staying_.contains(dialog->objectName())) return;
     if (current_ == nullptr && !awaited_.empty()) {
       const auto act = std::move(awaited_.front());
       awaited_.pop_front();
@@ -168,6 +172,7 @@ class Hand {
   QStringList steps_;
   std::deque<std::function<void(QWidget&)>> awaited_;
   QWidget* current_ = nullptr;
+  QStringList staying_;
   std::array<QTimer, 2> timers_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QAction>
+#include <QCheckBox>
 #include <QDialogButtonBox>
 #include <QDockWidget>
 #include <QLabel>
@@ -153,6 +154,33 @@ TEST_F(TerrainDock, bakesWhatIsAskedForAndOpensIt) {
       << w().messages().text().toStdString();
   EXPECT_TRUE(terrain::isDatabase(dir_ / "mine"));
   EXPECT_FALSE(panel().findChild<QProgressBar*>()->isVisible());
+}
+
+TEST_F(TerrainDock, bakesFilesThatDoNotSayWhatTheyAreIn) {
+  std::filesystem::create_directories(dir_ / "tiles");
+  workbench::BakeDialog dialog;
+  dialog.addSources({QString::fromStdString((dir_ / "grid.asc").string())});
+  const auto named = [&dialog](const char* name) {
+    for (auto* line : dialog.findChildren<QLineEdit*>())
+      if (line->accessibleName() == QLatin1String(name)) return line;
+    return static_cast<QLineEdit*>(nullptr);
+  };
+  EXPECT_FALSE(dialog.options().reading.heightUnit);
+  EXPECT_FALSE(dialog.options().reading.ignoreChecksums);
+  ASSERT_NE(named("Unit of heights"), nullptr);
+  named("Unit of heights")->setText("cubits");
+  EXPECT_FALSE(accepting(dialog)->isEnabled());
+  named("Unit of heights")->setText("foot");
+  EXPECT_TRUE(accepting(dialog)->isEnabled());
+  EXPECT_EQ(dialog.options().reading.heightUnit, 0.3048);
+  for (auto* box : dialog.findChildren<QCheckBox*>())
+    if (box->text().contains(QLatin1String("DTED"))) box->click();
+  EXPECT_TRUE(dialog.options().reading.ignoreChecksums);
+  named("Image to drape")->setText(QString::fromStdString((dir_ / "nowhere").string()));
+  EXPECT_FALSE(accepting(dialog)->isEnabled());
+  named("Image to drape")->setText(QString::fromStdString((dir_ / "tiles").string()));
+  EXPECT_TRUE(accepting(dialog)->isEnabled()) << "a folder of images";
+  EXPECT_EQ(dialog.options().imagery, dir_ / "tiles");
 }
 
 TEST_F(TerrainDock, tellsWhatABakeFoundThoughItSucceeded) {

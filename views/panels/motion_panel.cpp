@@ -35,6 +35,7 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
       draft_(draft),
       source_(new QComboBox),
       open_(new QPushButton(tr("&Open log…"))),
+      columns_(new QPushButton(tr("Co&lumns…"))),
       name_(new QLabel),
       state_(new QLabel(tr("No frame has been decided yet"))),
       sweep_(new QLineEdit(QStringLiteral("180deg/1s/2s"))),
@@ -62,6 +63,7 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
   top->addWidget(source_, 1);
   top->addWidget(sweep_, 1);
   top->addWidget(open_);
+  top->addWidget(columns_);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 6);
   layout->addLayout(top);
@@ -81,6 +83,8 @@ MotionPanel::MotionPanel(Draft& draft, QWidget* parent)
       emit sourceAsked(source);
   });
   connect(open_, &QPushButton::clicked, this, &MotionPanel::openLogAsked);
+  columns_->setToolTip(tr("Says which column of the log is which quantity, and in what unit"));
+  connect(columns_, &QPushButton::clicked, this, &MotionPanel::columnsAsked);
   connect(sweep_, &QLineEdit::returnPressed, this, [this] { emit sourceAsked(sweep); });
   showWidgetsOf(host);
   refresh();
@@ -109,6 +113,7 @@ void MotionPanel::setSource(Source source, const QString& name) {
 
 void MotionPanel::showWidgetsOf(Source source) {
   open_->setVisible(source == log);
+  columns_->setVisible(source == log);
   sweep_->setVisible(source == sweep);
   name_->setVisible(source == log && !name_->text().isEmpty());
 }

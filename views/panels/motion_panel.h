@@ -44,6 +44,7 @@ class MotionPanel : public QWidget {
  signals:
   void sourceAsked(int source);  ///< the person chose another source, or changed the sweep
   void openLogAsked();
+  void columnsAsked();  ///< the person wants to say which columns of the log are what
 
  private:
   void refresh();
@@ -51,7 +52,7 @@ class MotionPanel : public QWidget {
 
   Draft& draft_;
   QComboBox* source_;
-  QPushButton* open_;
+  QPushButton *open_, *columns_;
   QLabel *name_, *state_;
   QLineEdit* sweep_;
   BarList* bars_;

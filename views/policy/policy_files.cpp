@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "policy_files.h"
 
-#include <QFileInfo>
 #include <QObject>
 #include <QStringList>
 
@@ -17,21 +16,9 @@ namespace {
 struct Language {
   const char* ending;
   const char* name;
-  Result<std::string> (*write)(const Policy&, const std::string& name);
-  Result<Policy> (*read)(std::string_view text, const std::string& where);
 };
-constexpr Language kLanguages[] = {
-    {"fll", QT_TRANSLATE_NOOP("QObject", "FuzzyLite Language"), &toFuzzyLite, &readFuzzyLite},
-    {"fis", QT_TRANSLATE_NOOP("QObject", "MATLAB fuzzy inference system"), &toMatlab,
-     [](std::string_view text, const std::string& where) { return readMatlab(text, where); }},
-};
-
-const Language* languageOf(const QString& file) {
-  const QString ending = QFileInfo(file).suffix().toLower();
-  for (const Language& language : kLanguages)
-    if (ending == QLatin1String(language.ending)) return &language;
-  return nullptr;
-}
+constexpr Language kLanguages[] = {{"fll", QT_TRANSLATE_NOOP("QObject", "FuzzyLite Language")},
+                                   {"fis", QT_TRANSLATE_NOOP("QObject", "MATLAB fuzzy inference system")}};
 
 }  // namespace
 
@@ -42,22 +29,22 @@ QString policyFileFilters() {
     all << pattern;
     each << QStringLiteral("%1 (%2)").arg(QObject::tr(language.name), pattern);
   }
-  if (each.size() > 1) each.prepend(QObject::tr("Policies (%1)").arg(all.join(QLatin1Char(' '))));
+  each.prepend(QObject::tr("Policies (%1)").arg(all.join(QLatin1Char(' '))));
   return each.join(QStringLiteral(";;"));
 }
 
-Result<Policy> readPolicyFile(const QString& file) {
-  const Language* language = languageOf(file);
-  if (language == nullptr) return unknownRuleEnding(file);
+Result<RuleFile> openRuleFile(const QString& file) {
+  const auto format = ruleFormatOf(file.toStdString());
+  if (!format) return unknownRuleEnding(file);
   const Result<std::string> text = readWhole(file.toStdString());
   if (!text) return text.findings();
-  return language->read(*text, file.toStdString());
+  return RuleFile::open(*text, file.toStdString(), *format);
 }
 
 Findings writePolicyFile(const QString& file, const Policy& policy, const std::string& name) {
-  const Language* language = languageOf(file);
-  if (language == nullptr) return {unknownRuleEnding(file)};
-  const Result<std::string> text = language->write(policy, name);
+  const auto format = ruleFormatOf(file.toStdString());
+  if (!format) return {unknownRuleEnding(file)};
+  const Result<std::string> text = policyFileText(policy, name, *format);
   if (!text) return text.findings();
   const auto written = writeAtomically(file.toStdString(), *text);
   Findings findings = written.findings();

@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QBoxLayout>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
@@ -16,6 +17,7 @@
 #include "lever_surface.h"
 #include "levers_view.h"
 #include "policy_files.h"
+#include "rule_map_dialog.h"
 #include "rules_page.h"
 #include "scheme_page.h"
 #include "shares_view.h"
@@ -355,8 +357,23 @@ void PolicyPanel::showTerm(int line) {
   parts_.plot->setFocus();
 }
 
-Findings PolicyPanel::importFile(const QString& file) {
-  const Result<Policy> policy = readPolicyFile(file);
+std::optional<Findings> PolicyPanel::importFile(const QString& file) {
+  const Result<RuleFile> rules = openRuleFile(file);
+  if (!rules) return rules.findings();
+  const Result<Policy> policy = rules->policy({}, false);
+  if (policy ? rules->acceptMatters() : mappingMayHelp(policy.findings())) {
+    for (RuleMapDialog* earlier : findChildren<RuleMapDialog*>()) earlier->close();
+    auto* dialog = new RuleMapDialog(
+        *rules, QFileInfo(file).fileName(),
+        [this, file](const Policy& made, const Findings& notes) {
+          policy_->replace(made, tr("Import Policy"));
+          emit imported(tr("The policy was imported: %1").arg(file), notes);
+        },
+        this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
+    return std::nullopt;
+  }
   if (policy) policy_->replace(*policy, tr("Import Policy"));
   return policy.findings();
 }
@@ -368,7 +385,8 @@ Findings PolicyPanel::exportFile(const QString& file) const {
 void PolicyPanel::askAndImport() {
   const QString file = QFileDialog::getOpenFileName(this, tr("Import Policy"), {}, policyFileFilters());
   if (file.isEmpty()) return;
-  tellFindings(this, tr("The policy was not imported"), tr("The policy was imported"), importFile(file));
+  if (const auto findings = importFile(file))
+    tellFindings(this, tr("The policy was not imported"), tr("The policy was imported"), *findings);
 }
 
 void PolicyPanel::askAndExport() {

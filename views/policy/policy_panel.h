@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QWidget>
+#include <optional>
 #include <string_view>
 
 #include "policy_draft.h"
@@ -59,7 +60,9 @@ class PolicyPanel : public QWidget {
   void showTerm(int line);
 
   /// Takes over a policy from a file as one undo step. Returns what was wrong with it, or worth knowing.
-  Findings importFile(const QString& file);
+  /// Returns nothing if the file's variables are no signals and levers, or if its surface can only be come
+  /// near to: a dialog that does not wait for its answer asks, and `imported` says what came of it.
+  std::optional<Findings> importFile(const QString& file);
   /// Writes the policy that runs. The findings say why it failed.
   Findings exportFile(const QString& file) const;
 
@@ -68,6 +71,10 @@ class PolicyPanel : public QWidget {
   /// A dock scrolls a panel that is higher than this: one whose labels wrap asks for the height that it would
   /// like, not for the least.
   int heightForWidth(int) const override { return minimumSizeHint().height(); }
+
+ signals:
+  /// A policy was taken over that a person had to be asked about.
+  void imported(const QString& what, const trimtab::Findings& findings);
 
  public slots:
   void askAndImport();

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "app/link/link.h"
+#include "app/workbench/dialogs/column_dialog.h"
+#include "app/workbench/dialogs/column_memory.h"
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/docks/host_dock.h"
@@ -38,26 +40,55 @@ FlightController::FlightController(const Workplace& workplace, const ObserverCon
         tr("The host moved the aircraft farther than it can fly (jump %L1)").arg(at_.feed.session().jumps()));
   });
   connect(&flight_, &FlightDock::openRequested, this, &FlightController::askOpen);
+  connect(&flight_, &FlightDock::columnsRequested, this, &FlightController::askColumns);
 }
 
-bool FlightController::open(const QString& file) {
+bool FlightController::open(const QString& file, const std::optional<ColumnMap>& columns) {
   const QString path = QFileInfo(file).absoluteFilePath();
-  const Findings findings = flight_.open(path);
+  const ColumnMap map = columns ? *columns : rememberedColumns(LogKind::flight, path);
+  const Findings findings = openWith(path, map);
   if (hasError(findings)) {
     at_.messages.add(tr("The flight cannot be opened: %1").arg(file), findings);
+    if (mapMayHelp(findings) || !map.empty()) askColumnsOf(path, map);
     return false;
   }
-  if (!findings.empty()) at_.messages.add(tr("Opened flight %1").arg(QFileInfo(file).fileName()), findings);
-  raiseDock(flight_);
-  rememberRecent(QStringLiteral("flight"), path);
+  if (!columns && !map.empty())
+    at_.messages.note(tr("%1 is read with the columns that were chosen for files with its header")
+                          .arg(QFileInfo(file).fileName()));
   return true;
 }
 
+Findings FlightController::openWith(const QString& path, const ColumnMap& columns) {
+  Findings findings = flight_.open(path, columns);
+  if (hasError(findings)) return findings;
+  if (!findings.empty()) at_.messages.add(tr("Opened flight %1").arg(QFileInfo(path).fileName()), findings);
+  raiseDock(flight_);
+  rememberRecent(QStringLiteral("flight"), path);
+  return findings;
+}
+
+QString FlightController::askFile() {
+  return QFileDialog::getOpenFileName(&at_.window, tr("Open flight"),
+                                      folderOfRecent(QStringLiteral("flight")),
+                                      tr("Flights and captures (*.csv *.txt *.gpx *.igc *.pcap *.pcapng);;"
+                                         "All files (*)"));
+}
+
 void FlightController::askOpen() {
-  const QString file =
-      QFileDialog::getOpenFileName(&at_.window, tr("Open flight"), folderOfRecent(QStringLiteral("flight")),
-                                   tr("Flights and captures (*.csv *.pcap *.pcapng);;All files (*)"));
-  if (!file.isEmpty()) open(file);
+  if (const QString file = askFile(); !file.isEmpty()) open(file);
+}
+
+void FlightController::askColumns() {
+  const QString opened = flight_.file(), path = opened.isEmpty() ? askFile() : opened;
+  if (path.isEmpty()) return;
+  askColumnsOf(path, opened.isEmpty() ? rememberedColumns(LogKind::flight, path) : flight_.columns());
+}
+
+void FlightController::askColumnsOf(const QString& path, const ColumnMap& columns) {
+  const auto openIt = [this, path](const ColumnMap& map) { return openWith(path, map); };
+  if (const Findings findings = ColumnDialog::ask(LogKind::flight, path, columns, openIt, at_.window);
+      !findings.empty())
+    at_.messages.add(tr("%1 has no columns to choose").arg(QFileInfo(path).fileName()), findings);
 }
 
 void FlightController::playOrPause() {

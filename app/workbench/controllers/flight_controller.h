@@ -3,8 +3,10 @@
 
 #include <QObject>
 #include <QString>
+#include <optional>
 
 #include "app/workbench/jobs/feed.h"
+#include "trimtab/host/column_map.h"
 #include "workplace.h"
 
 namespace trimtab::workbench {
@@ -22,10 +24,13 @@ class FlightController : public QObject {
   FlightController(const Workplace& workplace, const ObserverController& observer,
                    const TerrainController& terrain, FlightDock& flight, HostDock& host);
 
-  /// Opens a flight, a capture or a trace. Returns false and reports in the Messages dock if it cannot be
-  /// read; the flight stays as it was.
-  bool open(const QString& file);
+  /// Opens a flight, a capture or a trace, with a map of its columns; unset: with what was said of files with
+  /// its header. Returns false and reports in the Messages dock if it cannot be read; the flight stays as it
+  /// was. If a map may help, a dialog that does not wait for its answer asks for the columns.
+  bool open(const QString& file, const std::optional<ColumnMap>& columns = {});
   void askOpen();
+  /// Asks for the columns of the open flight, or of a file that it asks for.
+  void askColumns();
   void playOrPause();
   void connectOrDisconnectHost();
   /// Listens for a host on this port, on the interface that was chosen last.
@@ -42,6 +47,9 @@ class FlightController : public QObject {
   void sourceTextChanged(const QString& text);
 
  private:
+  Findings openWith(const QString& path, const ColumnMap& columns);
+  void askColumnsOf(const QString& path, const ColumnMap& columns);
+  QString askFile();
   void cameraMoved();
   void takeSeat();
   void showSource();

@@ -6,6 +6,8 @@
 #include <QMessageBox>
 #include <QPushButton>
 
+#include "app/workbench/dialogs/column_dialog.h"
+#include "app/workbench/dialogs/column_memory.h"
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/jobs/feed.h"
 #include "app/workbench/viewport/viewport.h"
@@ -22,6 +24,7 @@ constexpr int kRowsInQuestion = 3;  ///< bad rows that the question names
 HeadController::HeadController(const Workplace& workplace, MotionPanel& panel)
     : at_(workplace), panel_(panel) {
   connect(&panel_, &MotionPanel::openLogAsked, this, &HeadController::askOpen);
+  connect(&panel_, &MotionPanel::columnsAsked, this, &HeadController::askColumns);
   connect(&panel_, &MotionPanel::sourceAsked, this, &HeadController::use);
   connect(&at_.viewport, &Viewport::pointed, this,
           [this](QPointF place) { at_.feed.point(place.x(), place.y()); });
@@ -64,27 +67,60 @@ void HeadController::showSource() {
 }
 
 bool HeadController::open(const QString& fileOrSweep) {
-  Result<HeadLog> head = openHead(fileOrSweep.toStdString());
+  const bool sweep = isSweep(fileOrSweep.toStdString());
+  const ColumnMap map = sweep ? ColumnMap{} : rememberedColumns(LogKind::head, fileOrSweep);
+  Result<HeadLog> head = openHead(fileOrSweep.toStdString(), BadRows::refuse, map);
   if (!head) {
     at_.messages.add(tr("The line of sight is unchanged: %1 cannot be used").arg(fileOrSweep),
                      head.findings());
     showSource();
-    offerTheOtherRows(fileOrSweep, head.findings());
+    if (!offerTheOtherRows(fileOrSweep, head.findings(), map) && !sweep &&
+        (mapMayHelp(head.findings()) || !map.empty()))
+      askColumnsOf(fileOrSweep, map);
     return false;
   }
-  useLog(std::move(head), fileOrSweep);
+  if (!map.empty())
+    at_.messages.note(tr("%1 is read with the columns that were chosen for files with its header")
+                          .arg(QFileInfo(fileOrSweep).fileName()));
+  useLog(std::move(head), fileOrSweep, map);
   return true;
 }
 
-void HeadController::useLog(Result<HeadLog> log, const QString& file) {
+/// Opens a log with the columns that a person chose; a question about its rows decides later.
+Findings HeadController::openWith(const QString& file, const ColumnMap& columns) {
+  Result<HeadLog> head = openHead(file.toStdString(), BadRows::refuse, columns);
+  if (!head) return offerTheOtherRows(file, head.findings(), columns) ? Findings{} : head.findings();
+  useLog(std::move(head), file, columns);
+  return {};
+}
+
+void HeadController::useLog(Result<HeadLog> log, const QString& file, const ColumnMap& columns) {
   if (!log.findings().empty())
     at_.messages.add(tr("Head log %1").arg(QFileInfo(file).fileName()), log.findings());
+  if (!isSweep(log->name)) {
+    file_ = file;
+    columns_ = columns;
+  }
   at_.feed.useHeadLog(std::move(log).value());
 }
 
-void HeadController::offerTheOtherRows(const QString& file, const Findings& refusal) {
-  Result<HeadLog> rest = openHead(file.toStdString(), BadRows::leave_out);
-  if (!rest) return;
+void HeadController::askColumns() {
+  const QString file = file_.isEmpty() ? askFile() : file_;
+  if (!file.isEmpty()) askColumnsOf(file, file == file_ ? columns_ : rememberedColumns(LogKind::head, file));
+}
+
+void HeadController::askColumnsOf(const QString& file, const ColumnMap& columns) {
+  const auto openIt = [this, file](const ColumnMap& map) { return openWith(file, map); };
+  if (const Findings findings = ColumnDialog::ask(LogKind::head, file, columns, openIt, at_.window);
+      !findings.empty())
+    at_.messages.add(tr("%1 has no columns to choose").arg(QFileInfo(file).fileName()), findings);
+}
+
+/// Returns false if leaving rows out does not help.
+bool HeadController::offerTheOtherRows(const QString& file, const Findings& refusal,
+                                       const ColumnMap& columns) {
+  Result<HeadLog> rest = openHead(file.toStdString(), BadRows::leave_out, columns);
+  if (!rest) return false;
   const auto rows = static_cast<int>(rest->rowsLeftOut);
   QStringList named;
   for (const Finding& finding : refusal)
@@ -103,13 +139,18 @@ void HeadController::offerTheOtherRows(const QString& file, const Findings& refu
   const QAbstractButton* leave = box->addButton(
       rows == 1 ? tr("Leave 1 row out") : tr("Leave %L1 rows out").arg(rows), QMessageBox::AcceptRole);
   connect(leave, &QAbstractButton::clicked, this,
-          [this, file, log = std::move(rest)]() mutable { useLog(std::move(log), file); });
+          [this, file, columns, log = std::move(rest)]() mutable { useLog(std::move(log), file, columns); });
   box->open();
+  return true;
+}
+
+QString HeadController::askFile() {
+  return QFileDialog::getOpenFileName(&at_.window, tr("Open head log"), {},
+                                      tr("Head logs (*.csv *.txt);;All files (*)"));
 }
 
 void HeadController::askOpen() {
-  const QString file = QFileDialog::getOpenFileName(&at_.window, tr("Open head log"), {},
-                                                    tr("Head logs (*.csv *.txt);;All files (*)"));
+  const QString file = askFile();
   if (file.isEmpty())
     showSource();
   else

@@ -32,7 +32,8 @@ std::optional<ExperimentInputs> RunInputs::write(const QString& folder) const {
     return std::nullopt;
   if (const Flight& flight = at_.feed.playback().flight(); !flight.states.empty()) {
     // The file holds more than the states: a trace has its cost, and a capture what CSV has no columns for.
-    inputs.flight = flight_.file();
+    // It is read there without its map of columns, which the states have passed already.
+    if (flight_.columns().empty()) inputs.flight = flight_.file();
     if (!inputs.flight.isEmpty()) return inputs;
     inputs.flight = folder + "/flight.csv";
     if (!write(inputs.flight, flightCsv(flight))) return std::nullopt;

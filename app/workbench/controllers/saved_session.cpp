@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trimtab/host/column_map.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "views/model/snapshots.h"
@@ -77,6 +78,12 @@ class Reader {
     if (!parsed) findings_.insert(findings_.end(), parsed.findings().begin(), parsed.findings().end());
     return QString::fromUtf8(text);
   }
+  /// Returns the text of a map of columns.
+  QString columns(const char* key) {
+    const QString map = text(key);
+    if (!parseColumnMap(map.toStdString())) refuse(key, "a map of columns", map);
+    return map;
+  }
   SavedView view() {
     return {text("name"),
             {Degrees{number("latitude_deg", -90, 90)}, Degrees{number("longitude_deg", -180, 180)},
@@ -140,6 +147,7 @@ Result<Done> writeSession(const QString& file, const SavedSession& session) {
   if (!session.flight.isEmpty()) {
     object["flight"] = relativeTo(folder, session.flight);
     object["flight_position_s"] = session.flightPositionS;
+    if (!session.flightColumns.isEmpty()) object["flight_columns"] = session.flightColumns;
   }
   if (session.listenPort) object["listen_port"] = *session.listenPort;
   if (session.eye) object["eye"] = toJson(*session.eye);
@@ -181,6 +189,7 @@ Result<SavedSession> readSession(const QString& file) {
   session.preset = absoluteIn(folder, in.text("preset"));
   if (in.has("draft")) session.draft = in.preset("draft");
   session.flight = absoluteIn(folder, in.text("flight"));
+  session.flightColumns = in.columns("flight_columns");
   if (in.has("flight_position_s")) session.flightPositionS = in.number("flight_position_s", 0, kLongestS);
   if (in.has("listen_port"))
     session.listenPort = static_cast<std::uint16_t>(in.number("listen_port", 1, 65535));

@@ -37,6 +37,7 @@ struct SavedSession {
   QString terrain;             ///< a file or folder; empty: the sample terrain
   QString preset;              ///< a file, or the name of a shipped preset; empty: it has none yet
   QString flight;              ///< a file; empty: none
+  QString flightColumns;       ///< the map of its columns, as `--columns` has it; empty: none
   double flightPositionS = 0;  ///< seconds from the flight's start
   std::optional<std::uint16_t> listenPort;  ///< set if a host was listened for
   QString workspace;                        ///< its name

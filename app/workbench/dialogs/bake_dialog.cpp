@@ -17,6 +17,7 @@
 #include <QVBoxLayout>
 
 #include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/elevation/height_unit.h"
 #include "trimtab/terrain/format/store.h"
 
 namespace trimtab::workbench {
@@ -28,13 +29,13 @@ const QString kElevation = BakeDialog::tr(
     "Elevation and scenery (*.tif *.tiff *.hgt *.dt0 *.dt1 *.dt2 *.img *.asc *.vrt *.zip *.btg *.btg.gz "
     "*.stg);;All files (*)");
 
-/// A line with a button that fills it.
-QWidget* withButton(QLineEdit* line, QPushButton* button) {
+/// A line with buttons that fill it.
+QWidget* withButtons(QLineEdit* line, std::initializer_list<QPushButton*> buttons) {
   auto* both = new QWidget;
   auto* row = new QHBoxLayout(both);
   row->setContentsMargins(0, 0, 0, 0);
   row->addWidget(line, 1);
-  row->addWidget(button);
+  for (QPushButton* button : buttons) row->addWidget(button);
   return both;
 }
 
@@ -44,7 +45,9 @@ BakeDialog::BakeDialog(QWidget* parent)
     : QDialog(parent),
       sources_(new QListWidget(this)),
       imagery_(new QLineEdit(this)),
+      heightUnit_(new QLineEdit(this)),
       output_(new QLineEdit(this)),
+      ignoreChecksums_(new QCheckBox(tr("Read DTED whose chec&ksums do not agree"), this)),
       ownError_(new QCheckBox(tr("Error of the fi&nest patches"), this)),
       error_(new QDoubleSpinBox(this)),
       memory_(new QSpinBox(this)),
@@ -74,12 +77,7 @@ BakeDialog::BakeDialog(QWidget* parent)
   sourceColumn->addWidget(sources_, 1);
   sourceColumn->addLayout(sourceButtons);
 
-  imagery_->setPlaceholderText(tr("none: land is coloured by height and slope"));
-  auto* browseImage = new QPushButton(tr("Br&owse..."), this);
-  connect(browseImage, &QPushButton::clicked, this, [this] {
-    const QString file = QFileDialog::getOpenFileName(this, tr("Image to drape"), {}, kImages);
-    if (!file.isEmpty()) imagery_->setText(file);
-  });
+  makeReading();
   output_->setToolTip(tr("A new folder, or a database that is replaced once the new one is complete"));
   auto* browseOutput = new QPushButton(tr("Bro&wse..."), this);
   connect(browseOutput, &QPushButton::clicked, this, [this] {
@@ -106,12 +104,14 @@ BakeDialog::BakeDialog(QWidget* parent)
   auto* form = new QFormLayout;
   form->addRow(tr("&Elevation,\nscenery"), sourceColumn);
   qobject_cast<QLabel*>(form->labelForField(sourceColumn))->setBuddy(sources_);
-  auto* imageRow = withButton(imagery_, browseImage);
+  form->addRow(tr("&Unit of heights"), heightUnit_);
+  form->addRow(ignoreChecksums_);
+  auto* imageRow = makeImagery();
   form->addRow(tr("&Image"), imageRow);
   qobject_cast<QLabel*>(form->labelForField(imageRow))->setBuddy(imagery_);
   form->addRow(ownError_, error_);
   form->addRow(tr("&Memory"), memory_);
-  auto* outputRow = withButton(output_, browseOutput);
+  auto* outputRow = withButtons(output_, {browseOutput});
   form->addRow(tr("&Database"), outputRow);
   qobject_cast<QLabel*>(form->labelForField(outputRow))->setBuddy(output_);
 
@@ -124,10 +124,35 @@ BakeDialog::BakeDialog(QWidget* parent)
   column->addLayout(form, 1);
   column->addWidget(note_);
   column->addWidget(buttons);
-  for (QLineEdit* line : {imagery_, output_})
+  for (QLineEdit* line : {imagery_, heightUnit_, output_})
     connect(line, &QLineEdit::textChanged, this, &BakeDialog::check);
   resize(640, sizeHint().height());
   check();
+}
+
+QWidget* BakeDialog::makeImagery() {
+  imagery_->setAccessibleName(tr("Image to drape"));
+  imagery_->setPlaceholderText(tr("none: land is coloured by height and slope"));
+  auto* image = new QPushButton(tr("Br&owse..."), this);
+  connect(image, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Image to drape"), {}, kImages);
+    if (!file.isEmpty()) imagery_->setText(file);
+  });
+  auto* folder = new QPushButton(tr("Fold&er..."), this);
+  connect(folder, &QPushButton::clicked, this, [this] {
+    const QString chosen = QFileDialog::getExistingDirectory(this, tr("Folder of images to drape"));
+    if (!chosen.isEmpty()) imagery_->setText(chosen);
+  });
+  return withButtons(imagery_, {image, folder});
+}
+
+/// What the person knows of the files and the files do not say.
+void BakeDialog::makeReading() {
+  const QString units = QString::fromStdString(terrain::unitsOfHeight());
+  heightUnit_->setPlaceholderText(tr("as the files say"));
+  heightUnit_->setAccessibleName(tr("Unit of heights"));
+  heightUnit_->setToolTip(tr("Of files that name none, or none that is known: %1").arg(units));
+  ignoreChecksums_->setToolTip(tr("Also DTED without checksums; without this, such a file is refused"));
 }
 
 void BakeDialog::addSources(const QStringList& paths) {
@@ -158,13 +183,17 @@ void BakeDialog::removeChosen() {
 }
 
 void BakeDialog::check() {
-  const QString output = output_->text().trimmed(), image = imagery_->text().trimmed();
+  const QString output = output_->text().trimmed(), image = imagery_->text().trimmed(),
+                unit = heightUnit_->text().trimmed();
   const QFileInfo folder(output);
   QString problem;
   if (sources_->count() == 0)
     problem = tr("Add at least one elevation file or folder of scenery.");
-  else if (!image.isEmpty() && !QFileInfo(image).isFile())
-    problem = tr("There is no image %1.").arg(image);
+  else if (!image.isEmpty() && !QFileInfo::exists(image))
+    problem = tr("There is no image or folder %1.").arg(image);
+  else if (!unit.isEmpty() && !terrain::metresPerUnit(unit.toStdString()))
+    problem = tr("%1 is no unit of heights; they are %2.")
+                  .arg(unit, QString::fromStdString(terrain::unitsOfHeight()));
   else if (output.isEmpty())
     problem = tr("Name a folder for the database.");
   else if (folder.exists() && !folder.isDir())
@@ -186,6 +215,9 @@ terrain::BakeOptions BakeDialog::options() const {
     options.sources.emplace_back(sources_->item(i)->text().toStdString());
   if (const QString image = imagery_->text().trimmed(); !image.isEmpty())
     options.imagery = image.toStdString();
+  if (const QString unit = heightUnit_->text().trimmed(); !unit.isEmpty())
+    options.reading.heightUnit = terrain::metresPerUnit(unit.toStdString());
+  options.reading.ignoreChecksums = ignoreChecksums_->isChecked();
   if (ownError_->isChecked()) options.maxError = Metres{error_->value()};
   options.memory = Megabytes{double(memory_->value())};
   options.output = output_->text().trimmed().toStdString();

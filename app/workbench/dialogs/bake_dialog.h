@@ -33,11 +33,13 @@ class BakeDialog : public QDialog {
   void addFiles();
   void addFolder();
   void removeChosen();
+  QWidget* makeImagery();
+  void makeReading();
   void check();
 
   QListWidget* sources_;
-  QLineEdit *imagery_, *output_;
-  QCheckBox* ownError_;
+  QLineEdit *imagery_, *heightUnit_, *output_;
+  QCheckBox *ignoreChecksums_, *ownError_;
   QDoubleSpinBox* error_;
   QSpinBox* memory_;
   QLabel* note_;

@@ -50,12 +50,16 @@ FlightDock::FlightDock(Feed& feed, QWidget* parent)
       via_(new QComboBox(this)) {
   auto* open = new QPushButton(tr("Open..."), this);
   connect(open, &QPushButton::clicked, this, &FlightDock::openRequested);
+  auto* columns = new QPushButton(tr("Columns..."), this);
+  columns->setToolTip(tr("Says which column of a table is which quantity, and in what unit"));
+  connect(columns, &QPushButton::clicked, this, &FlightDock::columnsRequested);
   close_->setToolTip(tr("Closes the flight: the free camera starts where the aircraft was"));
   connect(close_, &QPushButton::clicked, this, &FlightDock::close);
   auto* top = new QHBoxLayout;
   name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   top->addWidget(name_, 1);
   top->addWidget(open);
+  top->addWidget(columns);
   top->addWidget(close_);
 
   stop_->setIcon(symbol(QStyle::SP_MediaStop));
@@ -128,9 +132,9 @@ QString FlightDock::file() const {
   return file_;
 }
 
-Findings FlightDock::open(const QString& file) {
+Findings FlightDock::open(const QString& file, const ColumnMap& columns) {
   const QDateTime written = QFileInfo(file).lastModified();
-  Result<Flight> flight = readFlight(file.toStdString());
+  Result<Flight> flight = readFlight(file.toStdString(), 0.1, columns);
   if (!flight) return flight.findings();
   Findings notes = flight.findings();
   if (flight->states.size() < 2) {
@@ -142,6 +146,7 @@ Findings FlightDock::open(const QString& file) {
   if (loaded.name.empty()) loaded.name = QFileInfo(file).fileName().toStdString();
   feed_.loadFlight(std::move(loaded));
   file_ = file;
+  columns_ = columns;
   fileOf_ = written;
   name_->setToolTip(file);
   return notes;

@@ -8,6 +8,7 @@
 #include <QWidget>
 
 #include "app/workbench/jobs/feed.h"
+#include "trimtab/host/column_map.h"
 
 class QCheckBox;
 class QComboBox;
@@ -25,13 +26,16 @@ class FlightDock : public QWidget {
  public:
   explicit FlightDock(Feed& feed, QWidget* parent = nullptr);
 
-  /// Returns what was wrong with the file. An error among the findings means that it was not opened.
-  Findings open(const QString& file);
+  /// Opens a file, with a map of its columns. Returns what was wrong with it. An error among the findings
+  /// means that it was not opened.
+  Findings open(const QString& file, const ColumnMap& columns = {});
   /// Plays states that were recorded here, inside this program and with their own line of sight.
   void fly(const std::vector<AircraftState>& states);
   /// Returns the file that the open flight was read from; empty if there is none, or if the file has changed
   /// since.
   QString file() const;
+  /// Returns the map with which that file was read.
+  const ColumnMap& columns() const { return columns_; }
   /// Closes the flight; the free camera starts where the aircraft was.
   void close();
   void play();
@@ -45,6 +49,7 @@ class FlightDock : public QWidget {
 
  signals:
   void openRequested();
+  void columnsRequested();
   void refused(const QString& what, const trimtab::Findings& findings);
 
  protected:
@@ -67,6 +72,7 @@ class FlightDock : public QWidget {
   QCheckBox* loop_;
   QComboBox* via_;
   QString file_;
+  ColumnMap columns_;
   QDateTime fileOf_;  ///< the file's time stamp when it was read
   bool udpPaused_ = false;
   QTimer refresh_;  ///< runs only while a flight plays and the dock is visible

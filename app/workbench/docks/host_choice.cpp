@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "host_choice.h"
 
+#include <QFormLayout>
 #include <QHeaderView>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "views/controls/parameter_lines.h"
@@ -56,10 +59,19 @@ QString unusedText(const HostStatistics& host, const link::Questions& questions,
 
 HostChoicePanel::HostChoicePanel(views::Draft& draft, QWidget* parent)
     : QWidget(parent),
+      entity_(new QLineEdit(this)),
       senders_(new QTreeWidget(this)),
       alone_(new QPushButton(tr("&Hear this one alone"), this)),
       seen_(new QLabel(this)),
       unused_(new QLabel(this)) {
+  entity_->setPlaceholderText(tr("SITE:APPLICATION:ENTITY or marking; empty: as the preset says"));
+  entity_->setAccessibleName(tr("Own aircraft by name"));
+  entity_->setToolTip(QString::fromLatin1(link::kEntityHelp));
+  connect(entity_, &QLineEdit::editingFinished, this, [this] {
+    if (std::exchange(askedFor_, entity()) != entity()) emit choiceChanged();
+  });
+  auto* name = new QFormLayout;
+  name->addRow(tr("Own aircraft by na&me"), entity_);
   senders_->setHeaderLabels({tr("Sender"), tr("States"), tr("Datagrams"), tr("Newest that led to none")});
   senders_->setRootIsDecorated(false);
   senders_->setAccessibleName(tr("Senders"));
@@ -77,6 +89,7 @@ HostChoicePanel::HostChoicePanel(views::Draft& draft, QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(new views::ParameterLines(draft, kKeys));
+  column->addLayout(name);
   column->addWidget(seen_);
   column->addWidget(senders_);
   column->addWidget(alone_);
@@ -91,6 +104,10 @@ HostChoicePanel::HostChoicePanel(views::Draft& draft, QWidget* parent)
       if (key == QLatin1String(own)) emit choiceChanged();
   });
   showLink({}, {}, {}, {});
+}
+
+QString HostChoicePanel::entity() const {
+  return entity_->text().trimmed();
 }
 
 void HostChoicePanel::choose() {

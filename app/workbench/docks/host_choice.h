@@ -7,6 +7,7 @@
 #include "app/link/link.h"
 
 class QLabel;
+class QLineEdit;
 class QPushButton;
 class QTreeWidget;
 
@@ -24,6 +25,9 @@ class HostChoicePanel : public QWidget {
  public:
   explicit HostChoicePanel(views::Draft& draft, QWidget* parent = nullptr);
 
+  /// Returns the name by which the own aircraft was asked for, as `--entity` has it; empty: as the preset
+  /// says.
+  QString entity() const;
   /// Shows what has come so far. `doubt` is where the host's height above ground contradicts the terrain.
   void showLink(const HostStatistics& host, const link::Senders& senders, const link::Questions& questions,
                 const std::optional<Finding>& doubt);
@@ -31,13 +35,15 @@ class HostChoicePanel : public QWidget {
  signals:
   /// One sender alone is to be heard: "10.0.0.5:5500".
   void senderChosen(const QString& sender);
-  /// The own entity or view of the preset changed.
+  /// The own entity was named, or that or the view of the preset changed.
   void choiceChanged();
 
  private:
   void choose();
   void showSenders(const HostStatistics& host, const link::Senders& senders);
 
+  QLineEdit* entity_;
+  QString askedFor_;  ///< the entity when somebody was told last
   QTreeWidget* senders_;
   QPushButton* alone_;
   QLabel *seen_, *unused_;

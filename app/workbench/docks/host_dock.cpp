@@ -200,8 +200,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
   connect(protocol_, &QComboBox::activated, this,
           [this](int index) { draft_.setValue(kProtocolKey, ChoiceIndex{static_cast<std::size_t>(index)}); });
   const auto connectAgain = [this] {
-    if (feed_.receiver() != nullptr && feed_.receiver()->statistics().protocol != WireProtocol::none)
-      connectHost();
+    if (feed_.receiver() != nullptr) connectHost();
   };
   connect(choice_, &HostChoicePanel::choiceChanged, this, connectAgain);
   connect(choice_, &HostChoicePanel::senderChosen, this, [this](const QString& sender) {
@@ -314,6 +313,7 @@ Findings HostDock::connectHost() {
   settings.sender = senderAsked();
   settings.group = group_->text().trimmed().toStdString();
   settings.choice = HostChoice(draft_.active()->host);
+  settings.choice.chooseEntity(choice_->entity().toStdString());
   if (const QString reply = reply_->text().trimmed(); !reply.isEmpty()) {
     const Result<link::Endpoint> endpoint = link::parseEndpoint(reply.toStdString());
     if (!endpoint) {

@@ -20,6 +20,7 @@
 #include <cmath>
 
 #include "app/experiment/leverage.h"
+#include "views/model/theme.h"
 #include "views/model/value_text.h"
 #include "views/plots/report_plot.h"
 

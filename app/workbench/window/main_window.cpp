@@ -197,6 +197,7 @@ void MainWindow::connectParts() {
 
   MessagePanel* const messages = panels_.messages;
   connect(messages, &MessagePanel::errorAdded, messages, [messages] { raiseDock(*messages); });
+  connect(panels_.policy, &views::PolicyPanel::imported, messages, &MessagePanel::add);
   connect(panels_.host, &HostDock::refused, messages, &MessagePanel::add);
   connect(panels_.flight, &FlightDock::refused, messages, &MessagePanel::add);
   connect(panels_.leverage, &LeveragePage::refused, messages, &MessagePanel::add);
@@ -266,10 +267,10 @@ void MainWindow::openAny(const QString& path) {
     case FileKind::preset:
       return c.document->openOverEdits(path);
     case FileKind::rules:
-      if (const Findings findings = panels_.policy->importFile(path); hasError(findings))
-        messages().add(tr("%1 is no policy").arg(path), findings);
-      else
-        messages().add(tr("The policy was imported: %1").arg(path), findings);
+      if (const auto findings = panels_.policy->importFile(path))
+        messages().add(
+            (hasError(*findings) ? tr("%1 is no policy") : tr("The policy was imported: %1")).arg(path),
+            *findings);
       return;
     case FileKind::head_log:
       c.head->open(path);

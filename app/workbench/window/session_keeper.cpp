@@ -15,6 +15,7 @@
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/jobs/feed.h"
 #include "app/workbench/viewport/viewport.h"
+#include "trimtab/host/log_look.h"
 #include "trimtab/preset/preset.h"
 #include "views/model/draft.h"
 #include "views/model/snapshots.h"
@@ -65,6 +66,7 @@ SavedSession SessionKeeper::current() const {
     if (const Result<std::string> edits = document.editsText())
       session.draft = QString::fromStdString(*edits);
   session.flight = by_.flight->flightDock().file();
+  session.flightColumns = QString::fromStdString(columnMapText(by_.flight->flightDock().columns()));
   if (!session.flight.isEmpty()) session.flightPositionS = by_.flight->flightDock().position();
   if (const link::Receiver* receiver = at_.feed.receiver()) session.listenPort = receiver->port();
   session.workspace = workspaces_.names()[workspaces_.current()];
@@ -103,7 +105,9 @@ bool SessionKeeper::open(const QString& file) {
   if (const int index = int(workspaces_.names().indexOf(session.workspace)); index >= 0)
     workspaces_.show(index);
   by_.flight->flightDock().close();
-  if (!session.flight.isEmpty() && by_.flight->open(session.flight))
+  std::optional<ColumnMap> columns;
+  if (!session.flightColumns.isEmpty()) columns = *parseColumnMap(session.flightColumns.toStdString());
+  if (!session.flight.isEmpty() && by_.flight->open(session.flight, columns))
     by_.flight->flightDock().seek(session.flightPositionS);
   if (session.listenPort)
     by_.flight->listen(*session.listenPort);

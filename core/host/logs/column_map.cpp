@@ -5,12 +5,14 @@
 #include <cmath>
 
 #include "column_advice.h"
+#include "trimtab/host/log_look.h"
+#include "trimtab/units/number.h"
 #include "trimtab/units/text.h"
 
 namespace trimtab {
 namespace {
 
-constexpr std::string_view kAdvice = "map the column, as ";
+constexpr std::string_view kAdvice = "map the column, as ", kOr = " or ";
 
 /// Takes the text up to the next comma that does not stand in quotes.
 std::string_view takeAssignment(std::string_view& text) {
@@ -62,6 +64,16 @@ bool readSource(std::string_view text, ColumnSource& source) {
   return !text.empty();
 }
 
+/// Returns where `part` begins in a text, outside quotes.
+std::size_t findUnquoted(std::string_view text, std::string_view part) {
+  bool quoted = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    quoted ^= text[at] == '"';
+    if (!quoted && text.substr(at).starts_with(part)) return at;
+  }
+  return std::string_view::npos;
+}
+
 }  // namespace
 
 std::string columnText(std::string_view name) {
@@ -79,8 +91,34 @@ std::string columnText(std::string_view name) {
 std::string mapAdvice(std::initializer_list<std::string> maps) {
   std::string text;
   for (const std::string& map : maps)
-    if (!map.empty()) text.append(text.empty() ? kAdvice : " or ").append(map);
+    if (!map.empty()) text.append(text.empty() ? kAdvice : kOr).append(map);
   return "name the unit, or " + text;
+}
+
+std::string columnMapText(const ColumnMap& map) {
+  std::string text;
+  for (const auto& [quantity, source] : map) {
+    text += (text.empty() ? "" : ",") + quantity + '=' + columnText(source.column);
+    if (source.scale != 1) text += '*' + numberText(source.scale);
+    if (source.offset != 0) text += (source.offset > 0 ? "+" : "") + numberText(source.offset);
+  }
+  return text;
+}
+
+std::vector<std::vector<ColumnMap>> readingsThatFit(const Findings& findings) {
+  std::vector<std::vector<ColumnMap>> readings;
+  for (const Finding& finding : findings) {
+    const std::size_t advice = finding.found.find(kAdvice);
+    if (finding.severity != Severity::error || advice == std::string::npos) continue;
+    std::vector<ColumnMap>& maps = readings.emplace_back();
+    for (std::string_view rest = std::string_view(finding.found).substr(advice + kAdvice.size());
+         !rest.empty();) {
+      const std::size_t end = findUnquoted(rest, kOr);
+      if (const auto map = parseColumnMap(rest.substr(0, end))) maps.push_back(*map);
+      rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + kOr.size());
+    }
+  }
+  return readings;
 }
 
 Result<ColumnMap> parseColumnMap(std::string_view text) {

@@ -323,10 +323,10 @@ TEST_F(PolicyPanelTest, policiesComeFromFilesAndGoIntoThem) {
   const PolicyParameters before = draft_.parameters().policy;
   draft_.resetAll();
   EXPECT_TRUE(panel_.policy().empty());
-  EXPECT_TRUE(panel_.importFile(file).empty());
+  EXPECT_TRUE(panel_.importFile(file)->empty());
   EXPECT_EQ(draft_.parameters().policy, before);
-  EXPECT_FALSE(panel_.importFile(dir.filePath(QStringLiteral("policy.txt"))).empty());
-  EXPECT_FALSE(panel_.importFile(dir.filePath(QStringLiteral("gone.fll"))).empty());
+  EXPECT_FALSE(panel_.importFile(dir.filePath(QStringLiteral("policy.txt")))->empty());
+  EXPECT_FALSE(panel_.importFile(dir.filePath(QStringLiteral("gone.fll")))->empty());
   EXPECT_FALSE(panel_.exportFile(dir.filePath(QStringLiteral("policy"))).empty());
   EXPECT_EQ(draft_.parameters().policy, before);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "trimtab/host/flight.h"
+#include "trimtab/host/log_look.h"
 
 namespace trimtab {
 namespace {
@@ -275,38 +276,21 @@ TEST(FlightFiles, deriveAnAttitudeFromTheTrack) {
   EXPECT_NEAR(attitude.roll.value(), 28, 3);
 }
 
-/// Returns the maps that a refusal offers.
-std::vector<std::string> offeredBy(const Findings& findings) {
-  std::vector<std::string> maps;
-  const std::string advice = "map the column, as ";
-  for (const Finding& finding : findings) {
-    const std::size_t at = finding.found.find(advice);
-    if (at == std::string::npos) continue;
-    std::string rest = finding.found.substr(at + advice.size());
-    for (std::size_t end; (end = rest.find(" or ")) != std::string::npos; rest = rest.substr(end + 4))
-      maps.push_back(rest.substr(0, end));
-    maps.push_back(rest);
-  }
-  return maps;
-}
-
 TEST(FlightFiles, areReadByEachMapThatTheirRefusalOffers) {
   const std::string places = "0,52.3,4.75,1200,";
   std::string steps = "t,latitude_deg,longitude_deg,altitude_ft\n";
   for (int row = 0; row < 9; ++row) steps += std::to_string(20 * row) + ",52.3,4.75,1200\n";
   for (const std::string& text :
        {"time_s,latitude_deg,longitude_deg,altitude_ft,Theta,Bank,Psi\n" + places + "0.1,0.2,1.4\n",
-        std::string("time_s,latitude_deg,longitude_deg,\"Altitude, MSL\"\n0,52.3,4.75,1200\n"),
-        steps}) {
+        std::string("time_s,latitude_deg,longitude_deg,\"Altitude, MSL\"\n0,52.3,4.75,1200\n"), steps}) {
     const auto refused = parseFlightCsv(text, "f.csv");
     ASSERT_FALSE(refused) << text;
-    const auto maps = offeredBy(refused.findings());
-    EXPECT_EQ(maps.size(), 2U) << toString(refused.findings());
-    for (const std::string& each : maps) {
-      const auto map = parseColumnMap(each);
-      ASSERT_TRUE(map) << each;
-      const auto flight = parseFlightCsv(text, "f.csv", 0.1, *map);
-      EXPECT_TRUE(flight) << each << ": " << toString(flight.findings());
+    const auto readings = readingsThatFit(refused.findings());
+    ASSERT_EQ(readings.size(), 1U) << toString(refused.findings());
+    EXPECT_EQ(readings[0].size(), 2U) << toString(refused.findings());
+    for (const ColumnMap& map : readings[0]) {
+      const auto flight = parseFlightCsv(text, "f.csv", 0.1, map);
+      EXPECT_TRUE(flight) << columnMapText(map) << ": " << toString(flight.findings());
     }
   }
 }
