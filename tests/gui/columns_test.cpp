@@ -177,7 +177,7 @@ TEST_F(Columns, ofAFileWithoutAHeaderAreChosenByNumberAndNeverRemembered) {
   EXPECT_NEAR(measured->states[5].position.height.in<Feet>(), 2950, 1e-6);
 
   w().panels().flight->close();
-  EXPECT_FALSE(w().controllers().flight->open(QString::fromStdString(file))) << "it has no header";
+  ASSERT_FALSE(w().controllers().flight->open(QString::fromStdString(file))) << "it has no header";
   EXPECT_TRUE(choices().isEmpty());
   dialog().close();
 }
