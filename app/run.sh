@@ -29,18 +29,18 @@ mkdir -p build
   { grep -E "error|FAILED|CMake Error" build/run.log | head -40 >&2; echo "the build failed: see build/run.log" >&2; exit 1; }
 
 if [ -z "$terrain" ]; then
-  terrain=build/sample/terrain${imagery:+-imagery}
+  terrain=build/sample/world${imagery:+-imagery}
   # One that another version baked is made again.
   if ! build/bin/trimtab-cli terrain info "$terrain" >/dev/null 2>&1; then
     echo "making the sample terrain in build/sample (once)"
     mkdir -p build/sample
-    [ -f build/sample/sample.tif ] || build/bin/trimtab-cli terrain sample -o build/sample/sample.tif >build/sample/log 2>&1
+    [ -f build/sample/sample.tif ] && [ -f build/sample/sample-objects.csv ] || build/bin/trimtab-cli terrain sample -o build/sample/sample.tif >build/sample/log 2>&1
     drape=()
     if [ -n "$imagery" ]; then
       drape=(--imagery build/sample/picture.tif)
       [ -f "${drape[1]}" ] || build/bin/trimtab-cli terrain picture build/sample/sample.tif -o "${drape[1]}" >>build/sample/log 2>&1
     fi
-    build/bin/trimtab-cli terrain bake build/sample/sample.tif "${drape[@]}" -o "$terrain" >>build/sample/log 2>&1
+    build/bin/trimtab-cli terrain bake build/sample/sample.tif "${drape[@]}" --objects build/sample/sample-objects.csv -o "$terrain" >>build/sample/log 2>&1
   fi
 fi
 

@@ -24,10 +24,18 @@ void addTerrain(CLI::App& app, int& exitCode) {
   struct SampleArguments {
     std::string output;
     terrain::SampleOptions options;
+    bool bare = false;
   };
   auto sample = std::make_shared<SampleArguments>();
-  CLI::App* makeSample = group->add_subcommand("sample", "Write the seeded sample terrain as a GeoTIFF");
-  makeSample->add_option("-o,--output", sample->output, "GeoTIFF to write")->required();
+  CLI::App* makeSample = group->add_subcommand(
+      "sample",
+      "Write the seeded sample terrain as a GeoTIFF, and what stands on it, for terrain bake --objects");
+  makeSample
+      ->add_option("-o,--output", sample->output,
+                   "GeoTIFF to write; objects go beside NAME.tif, into NAME-objects.csv and its models into "
+                   "NAME-objects")
+      ->required();
+  makeSample->add_flag("--bare", sample->bare, "Write no objects");
   makeSample->add_option("--seed", sample->options.seed, "The same seed gives the same terrain")
       ->capture_default_str();
   makeSample->add_option("--size-km", sample->options.sizeKm, "Side of the square")
@@ -39,6 +47,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
   stopWhenAsked(*makeSample);
   makeSample->callback([sample, &exitCode] {
     sample->options.progress = progressLines();
+    sample->options.objects = !sample->bare;
     const auto done = terrain::writeSample(sample->output, sample->options);
     report(done.findings());
     exitCode = done ? kDone : kRefused;

@@ -4,6 +4,7 @@
 #include <QMetaObject>
 #include <exception>
 
+#include "app/models/read_model.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/bake/cache.h"
 #include "trimtab/terrain/grid/progress.h"
@@ -42,18 +43,22 @@ void TerrainJob::openSample() {
   start(tif, tr("Making the sample terrain"),
         [tif](const terrain::Progress& progress) -> Result<std::shared_ptr<const terrain::Database>> {
           std::error_code error;
-          if (!std::filesystem::exists(tif, error)) {
+          const std::filesystem::path objects = terrain::sampleObjects(tif);
+          if (!std::filesystem::exists(tif, error) || !std::filesystem::exists(objects, error)) {
             std::filesystem::create_directories(tif.parent_path(), error);
             terrain::SampleOptions options;
+            options.objects = true;
             options.progress = [&progress](double fraction, const std::string& what) {
               return progress(fraction / 2, what);
             };
             if (auto written = terrain::writeSample(tif, options); !written) return written.findings();
           }
-          return terrain::openOrBake(tif, terrain::cacheFolder(),
-                                     [&progress](double fraction, const std::string& what) {
-                                       return progress(0.5 + fraction / 2, what);
-                                     });
+          const auto second = [&progress](double fraction, const std::string& what) {
+            return progress(0.5 + fraction / 2, what);
+          };
+          return terrain::openOrBake(tif, terrain::cacheFolder(), second,
+                                     terrain::BakeOptions{}.trianglesPerNode,
+                                     terrain::ObjectsToBake{objects, models::readModel});
         });
 }
 

@@ -1,8 +1,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <set>
 
 #include "source.h"
+#include "trimtab/host/placement_list.h"
+#include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/bake/cache.h"
 #include "trimtab/terrain/elevation/files.h"
@@ -14,8 +17,37 @@ namespace trimtab::terrain {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Returns the checksum of a list of objects, and the stamps of the files in the folders of its models, which
+/// hold their textures too.
+Result<std::string> keyOf(const fs::path& list) {
+  const auto text = readWhole(list, kLargestRecording);
+  if (!text) return text.findings();
+  const auto read = readPlacementList(*text, list.string());
+  if (!read) return read.findings();
+  std::set<fs::path> folders;
+  for (const std::string& model : read->models) folders.insert((list.parent_path() / model).parent_path());
+  std::set<std::string> stamps;
+  std::error_code error;
+  for (const fs::path& folder : folders)
+    for (fs::directory_iterator file(folder, error), end; !error && file != end; file.increment(error)) {
+      std::error_code unknown;
+      if (!file->is_regular_file(unknown) || file->path() == list) continue;
+      const auto time = file->last_write_time(unknown).time_since_epoch().count();
+      stamps.insert(file->path().string() + ' ' + std::to_string(file->file_size(unknown)) + ' ' +
+                    std::to_string(time));
+    }
+  std::string key = "\nobjects " + hexadecimal(checksum(*text));
+  for (const std::string& stamp : stamps) key += '\n' + stamp;
+  return key;
+}
+
+}  // namespace
+
 Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const fs::path& cacheFolder,
-                                                   const Progress& progress, std::uint32_t trianglesPerNode) {
+                                                   const Progress& progress, std::uint32_t trianglesPerNode,
+                                                   const std::optional<ObjectsToBake>& objects) {
   if (isDatabase(source)) return Database::open(source);
   const std::vector<fs::path> sources{source};
   const bool scenery = isScenery(source);
@@ -24,6 +56,11 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   std::string key = "v" + std::to_string(kFormatVersion) + " b" + std::to_string(kBuilderVersion);
   if (scenery) key += " n" + std::to_string(trianglesPerNode);
   for (const std::string& stamp : stampsOf(*files)) key += '\n' + stamp;
+  if (objects) {
+    const auto more = keyOf(objects->list);
+    if (!more) return more.findings();
+    key += *more;
+  }
   const std::string name = nameOf(source);
   const fs::path cached = cacheFolder / (name + "-" + hexadecimal(checksum(key)));
   if (isDatabase(cached)) {
@@ -35,6 +72,10 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   options.output = cached;
   options.trianglesPerNode = trianglesPerNode;
   options.progress = progress;
+  if (objects) {
+    options.objects = objects->list;
+    options.readModel = objects->readModel;
+  }
   // Nobody named a bound: scenery, whose trees are made in memory, may have half of the machine.
   if (scenery)
     options.memory =

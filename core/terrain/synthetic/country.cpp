@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "landscape.h"
-#include "trimtab/units/number.h"
 #include "trimtab/terrain/elevation/georeference.h"
 #include "trimtab/terrain/elevation/write_tiff.h"
 #include "trimtab/terrain/grid/parallel.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
 

@@ -7,11 +7,11 @@
 #include <span>
 
 #include "landscape.h"
-#include "trimtab/units/number.h"
 #include "trimtab/terrain/elevation/georeference.h"
 #include "trimtab/terrain/elevation/write_tiff.h"
 #include "trimtab/terrain/grid/parallel.h"
 #include "trimtab/terrain/grid/post_geometry.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
 namespace {

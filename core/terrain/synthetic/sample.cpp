@@ -8,6 +8,7 @@
 #include "trimtab/terrain/grid/progress.h"
 #include "trimtab/terrain/synthetic/sample.h"
 #include "trimtab/units/number.h"
+#include "world.h"
 
 namespace trimtab::terrain {
 
@@ -106,6 +107,10 @@ void soften(Landscape& land) {
 
 }  // namespace
 
+fs::path sampleObjects(const fs::path& tif) {
+  return tif.parent_path() / (tif.stem().string() + "-objects.csv");
+}
+
 Result<Done> writeSample(const fs::path& tif, const SampleOptions& options) {
   const double sizeM = options.sizeKm * 1000;
   const double side = std::round(sizeM / options.postM) + 1;
@@ -139,6 +144,10 @@ Result<Done> writeSample(const fs::path& tif, const SampleOptions& options) {
   posts.stepLatitude = options.postM / middle.rowM(0);
   posts.west = kLongitude - posts.stepLongitude * (shape.side - 1) / 2;
   posts.south = kLatitude - posts.stepLatitude * (shape.side - 1) / 2;
+  if (options.objects) {
+    const auto done = writeWorld(sampleObjects(tif), {land, posts, flatRadius(sizeM), options.seed});
+    if (!done) return done;
+  }
   return writeTiff(tif, posts, [&](std::uint32_t first, std::uint32_t count, std::span<float> heights) {
     for (std::uint32_t r = 0; r < count; ++r)
       std::copy_n(&land.heights[std::size_t{land.side - 1 - first - r} * land.side], land.side,

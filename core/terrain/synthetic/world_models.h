@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+
+#include "trimtab/units/result.h"
+
+namespace trimtab::terrain {
+
+/// The models of the sample's world, in the order of kWorldModelNames.
+enum class WorldModel {
+  fir,
+  spruce,
+  pine,
+  oak,
+  birch,
+  poplar,
+  bush,
+  house,
+  largeHouse,
+  flats,
+  church,
+  hangar,
+  controlTower,
+  pylon
+};
+inline constexpr const char* kWorldModelNames[] = {
+    "fir",   "spruce",      "pine",  "oak",    "birch",  "poplar",        "bush",
+    "house", "large-house", "flats", "church", "hangar", "control-tower", "pylon"};
+
+/// Writes NAME.obj for each of them, and the colours that they share, into a folder that is made if there is
+/// none. Metres, y up, the front towards -z; closed meshes, anticlockwise from outside.
+Result<Done> writeWorldModels(const std::filesystem::path& folder);
+
+}  // namespace trimtab::terrain
