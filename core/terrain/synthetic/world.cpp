@@ -27,6 +27,8 @@ struct Spot {
 };
 
 constexpr double kRunwayDeg = 100;  ///< as the shipped flight takes off, the other way
+/// Gentler ground is farmed, so woods lie where ridges hide them.
+constexpr double kFarmedSlope = 0.05;
 constexpr double kMostSlopeOfWood = 0.75, kTreeLineM = 1200, kThinningM = 500;
 constexpr double kTreesPerKm2 = 3500, kMostTrees = 195000, kShareWooded = 0.17;
 constexpr float kBrookM2 = 1.5e7f;
@@ -183,9 +185,9 @@ class Planter {
         const Spot low{e * land_.cellM, n * land_.cellM},
             middle{low.east + land_.cellM / 2, low.north + land_.cellM / 2};
         const double away = middle.distance({}) / reach, slope = slopeAt(middle);
-        if (away > 1 || slope > kMostSlopeOfWood || !isDry(middle)) continue;
+        if (away > 1 || slope < kFarmedSlope || slope > kMostSlopeOfWood || !isDry(middle)) continue;
         const double patches = fractalNoise(middle.east / 900, middle.north / 900, 4, ground_.seed + 91);
-        const double worth = patches + 1.2 * std::min(slope, 0.25) - 0.9 * away;
+        const double worth = patches + 3 * std::min(slope, 0.35) - 0.45 * away;
         stands.push_back({worth, low});
       }
     std::stable_sort(stands.begin(), stands.end(),

@@ -65,12 +65,26 @@ TEST(FrameLevers, eachStepChangesOnlyItsOwn) {
                                               {Lever::blur_strength, 0.5},
                                               {Lever::render_scale, 0.75}}),
                                        motion, kLarge);
-  expected = {8, 4, 2 * 1.2, 0.8, 4000, 0.75, 0.25, 0.4, kLarge};
+  expected = {8, 4, 2 * 1.2, 0.8, 4000, 0.75, 0.25, 0.4, 8, 1, 100000, kLarge};
   EXPECT_EQ(ruled, expected) << "rules replace the preset's LOD scale, and head motion multiplies it";
 
   const FrameLevers held = withBudget(ruled, {16, 0.5, 0, 0});
-  expected = {16, 8, 2 * 1.2, 0.8, 4000, 0.5, 0, 0, kLarge};
+  expected = {16, 8, 2 * 1.2, 0.8, 4000, 0.5, 0, 0, 16, 1, 100000, kLarge};
   EXPECT_EQ(held, expected) << "the budget leaves LOD scale, spread, far distance and occlusion alone";
+}
+
+TEST(FrameLevers, rulesOnObjectsReplaceThePresetsValuesAndTheBudgetMovesTheirErrorWithTheGrounds) {
+  TuningParameters preset;
+  preset.objects = {Pixels{3}, Pixels{2}, Metres{40000}};
+  FrameLevers expected = presetLevers(preset, {});
+  EXPECT_EQ(expected.objectErrorPx, 3);
+  const FrameLevers ruled = withPolicy(
+      expected, rules({{Lever::object_error, 12}, {Lever::small_feature, 0}, {Lever::object_distance, 7000}}),
+      {}, {});
+  expected.objectErrorPx = 12, expected.smallFeaturePx = 0, expected.objectFarM = 7000;
+  EXPECT_EQ(ruled, expected);
+  const double twice = 2 * ruled.errorPx;
+  EXPECT_EQ(withBudget(ruled, {twice, 1, 1, 1}).objectErrorPx, 24);
 }
 
 TEST(FrameLevers, aRuleThatRestsAtThePresetsValueChangesNothingInAnyFormOfTerrain) {

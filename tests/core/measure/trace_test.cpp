@@ -134,7 +134,8 @@ TraceRow anyRow(std::mt19937_64& random) {
   d.reason = static_cast<SchemeReason>(random() % 5);
   LeverChain& chain = row.levers;
   for (FrameLevers* levers : {&chain.preset, &chain.motion, &chain.weather, &chain.policy, &chain.drawn}) {
-    *levers = {number(), number(), number(), number(), number(), number(), number(), number(), {}};
+    *levers = {number(), number(), number(), number(), number(), number(),
+               number(), number(), number(), number(), number(), {}};
     if (random() % 2)
       levers->occlusion =
           OcclusionResolution{1 + static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
@@ -143,7 +144,8 @@ TraceRow anyRow(std::mt19937_64& random) {
   anyWeather(random, d.weather);
   anyPolicy(random, row);
   if (random() % 2) {
-    row.frame = TraceFrame{{random(), random(), random(), random(), random(), random(), random()}, {}};
+    row.frame = TraceFrame{
+        {random(), random(), random(), random(), random(), random(), random(), random(), random()}, {}};
     for (const CostStage& stage : kCostStages) row.frame->cost.*stage.ms = random() % 8 ? number() : kNan;
   }
   return row;

@@ -54,7 +54,8 @@ double withoutTinyFirings(const Policy& policy, const PolicyDecision& ours, Leve
       }
   const Range range = rowOf(lever).hard;
   if (weight > 0) {
-    EXPECT_NEAR(ours.target[lever], sum / weight, (range.high - range.low) * tiny / weight + 1e-12);
+    const double rounding = 1e-12 + 1e-15 * range.high;
+    EXPECT_NEAR(ours.target[lever], sum / weight, (range.high - range.low) * tiny / weight + rounding);
   }
   return sum / weight;
 }

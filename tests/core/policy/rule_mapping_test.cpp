@@ -107,7 +107,8 @@ TEST(RuleMapping, isAskedForOnceWithTheInputsAndTheSignalsThatExist) {
       "pitch_membership, found v__m_s_, Depression\n"
       "f.fis:21: output: expected the key of a lever, or --map \"Detail=KEY*SCALE+OFFSET\" with one of "
       "occlusion, screen_space_error (px), lod_scale, far_distance (x visible distance), particle_density, "
-      "blur_strength, render_scale, found Detail");
+      "blur_strength, render_scale, object_error (px), small_feature (px), object_distance (m), found "
+      "Detail");
 }
 
 TEST(RuleMapping, ofWhatDoesNotExistIsRefused) {

@@ -154,7 +154,7 @@ inline constexpr std::array kLeverRows{
              "Smallest object",
              "px",
              detail::kPresetsOwn,
-             {0, 256},
+             {0, 32},
              {0, 8},
              CostOf::falls,
              false,
