@@ -6,6 +6,7 @@
 #include <set>
 
 #include "tests/core/hold/formula_machine.h"
+#include "tests/core/scene/objects/objects_on.h"
 #include "tests/core/scene/scene_test.h"
 #include "tests/core/scene/terrain/patched_terrain.h"
 #include "tests/core/scene/terrain/steep_roofs.h"
@@ -70,8 +71,9 @@ class ParameterEffects : public test::SceneTest {
   void SetUp() override {
     SceneTest::SetUp();
     if (!offscreen) return;
-    use(std::make_shared<test::TreeTerrain>(std::make_shared<const test::SyntheticTerrain>(
-        4, 1.0 / 1200, GeodeticPosition{Degrees{36.4}, Degrees{128.1}, Metres{0}}, test::mountains)));
+    const auto trees = std::make_shared<test::TreeTerrain>(std::make_shared<const test::SyntheticTerrain>(
+        4, 1.0 / 1200, GeodeticPosition{Degrees{36.4}, Degrees{128.1}, Metres{0}}, test::mountains));
+    use(std::make_shared<test::ObjectsOn>(trees, test::scattered(*trees, 1000, 4, 8, 3)));
   }
 
   // Named in the table of scenarios.
@@ -296,7 +298,8 @@ TEST_F(ParameterEffects, everyParameterChangesADecisionAPictureOrACount) {
     Observed (ParameterEffects::*run)(const ValidatedParameters&) = &ParameterEffects::fly;
   };
   const std::vector<Scenario> scenarios{
-      {"fuzzy. culling. lod. view. motion. static_lod. symbology. weather.source weather.step weather.haze "
+      {"fuzzy. culling. lod. objects. view. motion. static_lod. symbology. weather.source weather.step "
+       "weather.haze "
        "measure.",
        {}},
       {"fuzzy.altitude", {{"fuzzy.altitude.reading", "equation_a"}}},
