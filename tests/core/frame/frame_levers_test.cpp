@@ -32,12 +32,15 @@ TEST(FrameLevers, eachStepChangesOnlyItsOwn) {
   preset.staticLod.errorPx = Pixels{1};
   preset.lod.scale = Ratio{1.5};
   preset.lod.spread = Ratio{0.8};
+  preset.objects = {Pixels{2}, Pixels{1}, Metres{100000}};
   const FrameLevers asked = presetLevers(preset, kSmall);
   FrameLevers expected;
   expected.errorPx = 2;
   expected.treeErrorPx = 1;
   expected.lodScale = 1.5;
   expected.levelSpread = 0.8;
+  expected.smallFeaturePx = 1;
+  expected.objectFarM = 100000;
   expected.occlusion = kSmall;
   EXPECT_EQ(asked, expected);
 
