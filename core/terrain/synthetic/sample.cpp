@@ -144,16 +144,26 @@ Result<Done> writeSample(const fs::path& tif, const SampleOptions& options) {
   posts.stepLatitude = options.postM / middle.rowM(0);
   posts.west = kLongitude - posts.stepLongitude * (shape.side - 1) / 2;
   posts.south = kLatitude - posts.stepLatitude * (shape.side - 1) / 2;
-  if (options.objects) {
-    const auto done = writeWorld(sampleObjects(tif), {land, posts, flatRadius(sizeM), options.seed});
-    if (!done) return done;
-  }
-  return writeTiff(tif, posts, [&](std::uint32_t first, std::uint32_t count, std::span<float> heights) {
-    for (std::uint32_t r = 0; r < count; ++r)
-      std::copy_n(&land.heights[std::size_t{land.side - 1 - first - r} * land.side], land.side,
-                  &heights[std::size_t{r} * land.side]);
-    return true;
-  });
+  // What this call makes goes again if the sample cannot be completed; what was there before stays.
+  const fs::path list = sampleObjects(tif), models = list.parent_path() / list.stem();
+  std::error_code ignored;
+  const bool hadList = fs::exists(list, ignored), hadModels = fs::exists(models, ignored);
+  const auto cleared = [&](Result<Done> done) {
+    if (done || !options.objects) return done;
+    if (!hadList) fs::remove(list, ignored);
+    if (!hadModels) fs::remove_all(models, ignored);
+    return done;
+  };
+  if (options.objects)
+    if (const auto done = writeWorld(list, {land, posts, flatRadius(sizeM), options.seed}); !done)
+      return cleared(done);
+  return cleared(
+      writeTiff(tif, posts, [&](std::uint32_t first, std::uint32_t count, std::span<float> heights) {
+        for (std::uint32_t r = 0; r < count; ++r)
+          std::copy_n(&land.heights[std::size_t{land.side - 1 - first - r} * land.side], land.side,
+                      &heights[std::size_t{r} * land.side]);
+        return true;
+      }));
 }
 
 }  // namespace trimtab::terrain

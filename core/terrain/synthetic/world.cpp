@@ -237,8 +237,11 @@ Result<Done> writeWorld(const std::filesystem::path& list, const WorldGround& gr
   const std::string text = Planter(ground).planted(folder.filename().string());
   // The list comes last, and whole: where it is, its models are.
   const std::filesystem::path unfinished = list.string() + ".part";
-  if (const auto done = writeOwn(unfinished, text); !done) return done;
-  return putInPlace(unfinished, list);
+  auto done = writeOwn(unfinished, text);
+  if (done) done = putInPlace(unfinished, list);
+  std::error_code ignored;
+  if (!done) std::filesystem::remove(unfinished, ignored);
+  return done;
 }
 
 }  // namespace trimtab::terrain

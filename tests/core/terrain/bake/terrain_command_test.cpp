@@ -344,10 +344,13 @@ TEST_F(TerrainCommand, bakesInNoFolderOfOthers) {
 
 /// `ulimit -f` has the system end a program by a signal, unless it ignores that.
 TEST_F(TerrainCommand, saysWhenAFileMayNotBeSoLarge) {
-  const auto ran = test::run("ulimit -f 100; " + cli("sample -o " + at("s.tif")));
-  EXPECT_EQ(ran.exitCode, 1) << ran.err;
-  EXPECT_NE(ran.err.find("s.tif"), std::string::npos) << ran.err;
-  EXPECT_TRUE(std::filesystem::is_empty(dir_.path()));
+  const std::pair<const char*, const char*> kinds[] = {{"--bare", "s.tif"}, {"", "s-objects.csv"}};
+  for (const auto& [option, file] : kinds) {
+    const auto ran = test::run("ulimit -f 100; " + cli("sample -o " + at("s.tif") + " " + option));
+    EXPECT_EQ(ran.exitCode, 1) << ran.err;
+    EXPECT_NE(ran.err.find(file), std::string::npos) << ran.err;
+    EXPECT_TRUE(std::filesystem::is_empty(dir_.path()));
+  }
 }
 
 TEST_F(TerrainCommand, stopsCleanlyWhenInterrupted) {
