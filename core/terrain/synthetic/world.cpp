@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
 #include "world_models.h"
 
 namespace trimtab::terrain {
@@ -236,12 +236,7 @@ Result<Done> writeWorld(const std::filesystem::path& list, const WorldGround& gr
   if (const auto done = writeWorldModels(folder); !done) return done;
   const std::string text = Planter(ground).planted(folder.filename().string());
   // The list comes last, and whole: where it is, its models are.
-  const std::filesystem::path unfinished = list.string() + ".part";
-  auto done = writeOwn(unfinished, text);
-  if (done) done = putInPlace(unfinished, list);
-  std::error_code ignored;
-  if (!done) std::filesystem::remove(unfinished, ignored);
-  return done;
+  return writeAtomically(list, text);
 }
 
 }  // namespace trimtab::terrain

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "trimtab/preset/file_io.h"
+#include "trimtab/preset/preset.h"
 #include "trimtab/units/linear.h"
 
 namespace trimtab::terrain {
@@ -321,11 +322,11 @@ Result<Done> writeWorldModels(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (const auto can = canWriteIn(folder); !can) return can;
-  if (const auto done = writeOwn(folder / "colours.mtl", kWorldColours); !done) return done;
+  if (const auto done = writeAtomically(folder / "colours.mtl", kWorldColours); !done) return done;
   int number = 0;
   for (const std::string name : kWorldModelNames) {
     const std::string text = textOf(static_cast<WorldModel>(number++));
-    if (const auto done = writeOwn(folder / (name + ".obj"), text); !done) return done;
+    if (const auto done = writeAtomically(folder / (name + ".obj"), text); !done) return done;
   }
   return Done{};
 }
