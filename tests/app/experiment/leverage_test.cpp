@@ -10,6 +10,7 @@
 #include "app/experiment/stage.h"
 #include "tests/app/experiment/piece_of_terrain.h"
 #include "tests/app/experiment/straight_flight.h"
+#include "tests/core/scene/objects/objects_on.h"
 #include "tests/support.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/session/session.h"
@@ -43,7 +44,8 @@ class LeverageTest : public test::PieceOfTerrain {
 };
 
 TEST_F(LeverageTest, measuresEachLeverFromOneEndOfItsUsualRangeToTheOther) {
-  const experiment::Setup s = setup();
+  experiment::Setup s = setup();
+  s.terrain = std::make_shared<const test::ObjectsOn>(s.terrain, test::scattered(*s.terrain, 2000, 6, 8, 3));
   const auto leverage = measureLeverage(s);
   ASSERT_TRUE(leverage) << toString(leverage.findings());
   ASSERT_EQ(leverage->rows.size(), kLevers);
@@ -80,6 +82,8 @@ TEST_F(LeverageTest, measuresEachLeverFromOneEndOfItsUsualRangeToTheOther) {
   EXPECT_GT(rowFor(*leverage, Lever::screen_space_error).flipLost.median, 0);
   EXPECT_GT(rowFor(*leverage, Lever::screen_space_error).geometricPxLost.median, 0);
   EXPECT_GT(rowFor(*leverage, Lever::render_scale).flipLost.median, 0);
+  EXPECT_GT(rowFor(*leverage, Lever::object_distance).flipLost.median, 0);
+  EXPECT_GT(rowFor(*leverage, Lever::small_feature).flipLost.median, 0);
   EXPECT_EQ(rowFor(*leverage, Lever::particle_density).condition, "medium rain");
   EXPECT_EQ(rowFor(*leverage, Lever::far_distance).condition, "fog, visibility 10 km");
   EXPECT_EQ(rowFor(*leverage, Lever::blur_strength).condition, "head sweeping at 180 deg/s");
