@@ -53,7 +53,8 @@ constexpr ReplayMode kReplayModes[] = {
     {QT_TRANSLATE_NOOP("BudgetPanel", "with the budget held"), std::nullopt, true, MotionControl::off,
      RatioMode::adaptive}};
 
-/// Returns what the budget won and lost by a lever; null if it leaves the lever alone.
+/// Returns what the budget won and lost by a lever; null if it leaves the lever alone, or moves it with
+/// another one, as the error of objects with that of the ground.
 const LeverGain* gainOf(const HoldGains& gains, const FrameLeverRow& row) {
   if (row.value == &FrameLevers::errorPx) return &gains.error;
   if (row.value == &FrameLevers::renderScale) return &gains.renderScale;
@@ -68,9 +69,9 @@ enum LeverColumn { kAsked, kBy, kDrawn, kWon, kLost, kLeverColumns };
 QString wonText(const LeverChain& chain, const HoldGains& gains) {
   QStringList parts;
   for (const FrameLeverRow& row : kFrameLeverRows)
-    if (lastChange(chain, row) == LeverStep::budget)
+    if (const LeverGain* gain = gainOf(gains, row); gain && lastChange(chain, row) == LeverStep::budget)
       parts << BudgetPanel::tr("%1 takes off %2 ms")
-                   .arg(fromView(row.label).toLower(), numberText(gainOf(gains, row)->ms, 1));
+                   .arg(fromView(row.label).toLower(), numberText(gain->ms, 1));
   return parts.join(QStringLiteral(", "));
 }
 
