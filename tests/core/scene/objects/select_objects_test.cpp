@@ -35,7 +35,7 @@ class SelectObjects : public testing::Test {
   Vec3 footOf(const ObjectIndex::Cell& cell, const ObjectInstance& i) const {
     return {16.0 * cell.origin[0] + i.x, 16.0 * cell.origin[1] + i.y, 16.0 * cell.origin[2] + i.z};
   }
-  /// What is drawn, by instance: its level, counted from its model's first.
+  /// Returns the level at which each instance is drawn, counted from the first level of its model.
   static std::map<std::uint32_t, std::uint32_t> levels(const ObjectIndex& index,
                                                        const VisibleObjects& visible) {
     std::map<std::uint32_t, std::uint32_t> all;
