@@ -15,6 +15,15 @@ namespace {
 /// metres for what is near.
 constexpr double kRounding = 1e-6, kNearRoundingM = 1e-3;
 
+/// Returns the coarsest level of a model whose error `accepts` takes, at this scale; else the finest.
+template <typename Accepts>
+std::uint32_t coarsestLevel(const ObjectIndex& index, const ObjectIndex::Model& model, double scale,
+                            const Accepts& accepts) {
+  std::uint32_t level = model.firstLevel + model.levels - 1;
+  while (level > model.firstLevel && !accepts(double{index.levels[level].errorM} * scale)) --level;
+  return level;
+}
+
 class Selection {
  public:
   Selection(const ObjectIndex& index, const ObjectQuery& query, VisibleObjects& visible)
@@ -104,12 +113,9 @@ class Selection {
         ++visible_.outsideFrustum;
         continue;
       }
-      std::uint32_t level = model.firstLevel + model.levels - 1;
-      if (!coarsest)
-        for (const double nearest = std::max(distance - radius, 0.0);
-             level > model.firstLevel &&
-             !accepts(double{index_.levels[level].errorM} * instance.scale, nearest);)
-          --level;
+      const double nearest = std::max(distance - radius, 0.0);
+      const std::uint32_t level = coarsestLevel(
+          index_, model, instance.scale, [&](double error) { return coarsest || accepts(error, nearest); });
       visible_.found.push_back({static_cast<float>(foot.x), static_cast<float>(foot.y),
                                 static_cast<float>(foot.z), instance.scale, instance.turn, i, number});
       visible_.levelOfFound.push_back(level);
@@ -175,6 +181,24 @@ void selectObjects(const ObjectIndex& index, const ObjectQuery& query, VisibleOb
   visible.outsideFrustum = visible.occluded = visible.tooFar = visible.tooSmall = 0;
   visible.triangles = visible.vertices = 0;
   Selection(index, query, visible).run();
+}
+
+Vec3 placeOfObject(const ObjectIndex& index, std::uint32_t instance) {
+  const ObjectInstance& i = index.instances[instance];
+  for (std::uint32_t number = 0; number < index.cells.size(); ++number)
+    if (const ObjectIndex::Cell& cell = index.cells[number];
+        cell.isLeaf(number) && instance - cell.firstInstance < cell.instances)
+      return Vec3{i.x, i.y, i.z} + Vec3{16.0 * cell.origin[0], 16.0 * cell.origin[1], 16.0 * cell.origin[2]};
+  return {};
+}
+
+std::uint32_t levelOfObject(const ObjectIndex& index, const ObjectInstance& instance, double distanceM,
+                            const CutRule& rule) {
+  const ObjectIndex::Model& model = index.models[instance.model];
+  const double nearest = std::max(distanceM - double{model.radiusM} * instance.scale, 0.0);
+  return coarsestLevel(index, model, instance.scale, [&](double error) {
+    return !rule.isTooCoarse(error, nearest * nearest, rule.limit());
+  });
 }
 
 std::vector<Relief> reliefsOfCells(const ObjectIndex& index) {

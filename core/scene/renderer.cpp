@@ -82,6 +82,10 @@ struct Renderer::Impl {
   FrameResult draw(const FrameRequest& r, unsigned fbo);
   static void leaveContext(unsigned fbo);
   std::vector<std::uint32_t> readNodes(bool unculled);
+  std::vector<std::uint32_t> readObjects();
+  /// Draws the numbers of nodes into an image of numbers, and then what `more` draws.
+  template <typename More>
+  std::vector<std::uint32_t> readNumbers(bool unculled, const More& more);
 };
 
 TerrainDrawer* Renderer::Impl::drawerOf(TerrainForm form) {
@@ -330,7 +334,8 @@ void Renderer::Impl::leaveContext(unsigned fbo) {
   glClearDepth(1);
 }
 
-std::vector<std::uint32_t> Renderer::Impl::readNodes(bool unculled) {
+template <typename More>
+std::vector<std::uint32_t> Renderer::Impl::readNumbers(bool unculled, const More& more) {
   SceneView view = *shown;
   view.shape = lastView;
   view.guardBand = guardBandOf(lastView, gl->viewports);
@@ -342,9 +347,23 @@ std::vector<std::uint32_t> Renderer::Impl::readNodes(bool unculled) {
   gl->programs.begin(view);
   gl->programs.clear(false);
   if (view.form) drawForm(view, SceneShaders::tile_numbers, false, &TerrainDrawer::drawNumbered);
-  std::vector<std::uint32_t> nodes = gl->nodes.read();
+  more();
+  std::vector<std::uint32_t> numbers = gl->nodes.read();
   leaveContext(static_cast<GLuint>(before));
-  return nodes;
+  return numbers;
+}
+
+std::vector<std::uint32_t> Renderer::Impl::readNodes(bool unculled) {
+  return readNumbers(unculled, [] {});
+}
+
+std::vector<std::uint32_t> Renderer::Impl::readObjects() {
+  return readNumbers(false, [this] {
+    // The ground keeps its depth and loses its numbers.
+    const GLuint none[4] = {NodeTarget::kNone, 0, 0, 0};
+    glClearBufferuiv(GL_COLOR, 0, none);
+    if (terrain && objects.drawsAny()) objects.drawNumbers(gl->programs);
+  });
 }
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
@@ -427,6 +446,11 @@ void plant(Renderer& renderer, const Defects& defects) {
 std::vector<std::uint32_t> Renderer::readNodes(bool unculled) {
   if (!impl_->gl || !impl_->shown) return {};
   return impl_->readNodes(unculled);
+}
+
+std::vector<std::uint32_t> Renderer::readObjects() {
+  if (!impl_->gl || !impl_->shown) return {};
+  return impl_->readObjects();
 }
 
 std::vector<std::uint8_t> Renderer::readPixels(int width, int height) {

@@ -56,8 +56,9 @@ QString textOf(const PickedNode& node) {
     return QStringLiteral("<tr><td>%1&nbsp;&nbsp;</td><td>%2</td></tr>").arg(name, value);
   };
   QString text = QStringLiteral("<table>");
+  if (!node.model.isEmpty()) text += row(CullingPanel::tr("Model"), node.model.toHtmlEscaped());
   text += row(
-      CullingPanel::tr("Node"),
+      node.model.isEmpty() ? CullingPanel::tr("Node") : CullingPanel::tr("Object"),
       CullingPanel::tr("%1 %2, level %3").arg(node.form, count(node.number), QString::number(node.level)));
   text += row(CullingPanel::tr("Reason"), node.reason);
   text += row(CullingPanel::tr("Triangles"), count(node.triangles));
@@ -83,7 +84,7 @@ CullingPanel::CullingPanel(Draft& draft, QWidget* parent)
       map_(new DepthMapInset),
       horizon_(new HorizonInset),
       overlayRow_(new QHBoxLayout),
-      pick_(new QPushButton(tr("&Pick a node"))),
+      pick_(new QPushButton(tr("&Pick in the image"))),
       throttle_(this, [this] { refresh(); }) {
   for (QLabel* label : {served_, work_, picked_, objects_}) label->setWordWrap(true);
   picked_->setTextFormat(Qt::RichText);

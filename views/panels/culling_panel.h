@@ -24,9 +24,10 @@ class HorizonInset;
 class TimePlot;
 class TraceBuffer;
 
-/// A node that was picked in the image.
+/// A node or an object that was picked in the image.
 struct PickedNode {
-  QString form;  ///< "patch", "tile" or "tree node"
+  QString form;   ///< "patch", "tile", "tree node" or "object"
+  QString model;  ///< of an object
   std::uint32_t number = 0;
   int level = 0;
   std::uint64_t triangles = 0;

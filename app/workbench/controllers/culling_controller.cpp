@@ -33,7 +33,7 @@ CullingController::CullingController(const Workplace& workplace, FrameController
                                      const TerrainController& terrain, views::CullingPanel& panel)
     : at_(workplace), frame_(frame), terrain_(terrain), panel_(panel) {
   connect(&panel_, &views::CullingPanel::pickingChanged, &at_.viewport, &Viewport::setPicking);
-  connect(&at_.viewport, &Viewport::nodePicked, this, &CullingController::showPicked);
+  connect(&at_.viewport, &Viewport::picked, this, &CullingController::showPicked);
   connect(&at_.viewport, &Viewport::depthMapRead, this, &CullingController::showDepthMap);
   connect(&at_.viewport, &Viewport::horizonRead, this, &CullingController::showHorizon);
   connect(&terrain_, &TerrainController::opened, this, &CullingController::forgetPicked);
@@ -90,16 +90,19 @@ void CullingController::outline(const std::optional<Box>& box) {
   frame_.setOutline(box);
 }
 
-void CullingController::showPicked(std::uint32_t node) {
+void CullingController::showPicked(std::uint32_t node, std::uint32_t object) {
   panel_.endPicking();
   outline(std::nullopt);
   const auto& last = at_.viewport.lastResult();
   if (!terrain_.database() || !last || !frame_.shown()) return panel_.showPicked(std::nullopt);
-  const auto found = scene::describeNode(node, *terrain_.database(), *frame_.shown(), *last);
+  const bool ofObject = object != scene::Renderer::kNoNode;
+  const auto found = ofObject ? scene::describeObject(object, *terrain_.database(), *frame_.shown())
+                              : scene::describeNode(node, *terrain_.database(), *frame_.shown(), *last);
   if (!found) return panel_.showPicked(std::nullopt);
   outline(found->bounds);
   panel_.showPicked(views::PickedNode{.form = views::fromView(found->form),
-                                      .number = node,
+                                      .model = QString::fromStdString(found->model),
+                                      .number = ofObject ? object : node,
                                       .level = found->level,
                                       .triangles = found->triangles,
                                       .errorM = found->errorM,

@@ -40,7 +40,7 @@ class CullingController : public QObject {
  private:
   void showDepthMap(const QImage& grey);
   void showHorizon(const std::vector<float>& elevationDeg);
-  void showPicked(std::uint32_t node);
+  void showPicked(std::uint32_t node, std::uint32_t object);
   void outline(const std::optional<Box>& box);
 
   Workplace at_;

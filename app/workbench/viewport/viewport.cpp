@@ -169,18 +169,20 @@ void Viewport::setPicking(bool on) {
     unsetCursor();
 }
 
-/// Reads which node owns the clicked pixel of the image that was just drawn.
+/// Reads which node and which object own the clicked pixel of the image that was just drawn.
 void Viewport::readPicked(QSize picture) {
   const QRect at = letterbox(picture, sizePx());
   const QPointF place = *std::exchange(pickAt_, std::nullopt) * devicePixelRatioF();
   const double across = (place.x() - at.left()) / at.width(),
                up = (height() * devicePixelRatioF() - place.y() - at.top()) / at.height();
   if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return;
-  const std::vector<std::uint32_t> nodes = renderer_->readNodes();
   const std::size_t pixel =
       static_cast<std::size_t>(up * picture.height()) * static_cast<std::size_t>(picture.width()) +
       static_cast<std::size_t>(across * picture.width());
-  emit nodePicked(pixel < nodes.size() ? nodes[pixel] : scene::Renderer::kNoNode);
+  const auto numberIn = [pixel](const std::vector<std::uint32_t>& numbers) {
+    return pixel < numbers.size() ? numbers[pixel] : scene::Renderer::kNoNode;
+  };
+  emit picked(numberIn(renderer_->readNodes()), numberIn(renderer_->readObjects()));
 }
 
 void Viewport::paintGL() {

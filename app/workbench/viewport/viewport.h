@@ -77,7 +77,7 @@ class Viewport : public GlWidget {
   /// While this is on, `depthMapRead` reports the depth maps that were drawn, and `horizonRead` the horizons
   /// that were used, at most ten per second.
   void setDepthMapWanted(bool wanted);
-  /// While this is on, a click emits `nodePicked` instead of turning the camera.
+  /// While this is on, a click emits `picked` instead of turning the camera.
   void setPicking(bool on);
 
   const OverlayContents& overlayContents() const { return shownOverlay_; }
@@ -95,7 +95,8 @@ class Viewport : public GlWidget {
   void depthMapRead(const QImage& grey);
   /// Elevation angles all round, degrees; empty if no horizon was used.
   void horizonRead(const std::vector<float>& elevationDeg);
-  void nodePicked(std::uint32_t node);  ///< scene::Renderer::kNoNode if the sky was picked
+  /// A node, an object that hides it, or neither: scene::Renderer::kNoNode stands for none.
+  void picked(std::uint32_t node, std::uint32_t object);
   void glFailed(const QString& why);
 
  protected:

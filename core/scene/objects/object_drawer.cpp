@@ -83,13 +83,26 @@ std::vector<std::uint32_t> ObjectDrawer::tintsOf(const VisibleObjects& drawn) co
 
 void ObjectDrawer::draw(ScenePrograms& programs, bool wire) {
   if (wire) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  drawWith(programs, SceneShaders::objects, wire);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+void ObjectDrawer::drawNumbers(ScenePrograms& programs) {
+  std::vector<std::uint32_t> numbers;
+  for (const DrawnObject& object : shown().drawn) numbers.push_back(object.instance);
+  layer_->setInstances(shown(), numbers);
+  drawWith(programs, SceneShaders::object_numbers, false);
+  layer_->setInstances(shown(), tintsOf(shown()));
+}
+
+/// Draws with the shaders for what has no texture, and with those that follow for what has one.
+void ObjectDrawer::drawWith(ScenePrograms& programs, SceneShaders plain, bool wire) {
   for (const bool textured : {false, true}) {
     if (!layer_->draws(textured)) continue;
-    programs.use(textured ? SceneShaders::textured_objects : SceneShaders::objects, wire);
+    programs.use(SceneShaders{static_cast<int>(plain) + textured}, wire);
     if (textured) layer_->bindTextures();
     layer_->draw(textured);
   }
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
 ObjectFrame ObjectDrawer::frame() const {

@@ -29,6 +29,8 @@ class ObjectDrawer {
   bool drawsAny() const { return layer_ && !shown().drawn.empty(); }
   /// Draws them, with depths tested against what is there.
   void draw(ScenePrograms& programs, bool wire);
+  /// Draws the same into an image of numbers: each pixel gets the number of its instance in the index.
+  void drawNumbers(ScenePrograms& programs);
   /// Returns what the last prepared frame draws.
   ObjectFrame frame() const;
 
@@ -48,6 +50,7 @@ class ObjectDrawer {
   };
   const VisibleObjects& shown() const { return key_ && key_->byReason ? all_ : visible_; }
   std::vector<std::uint32_t> tintsOf(const VisibleObjects& shown) const;
+  void drawWith(ScenePrograms& programs, SceneShaders plain, bool wire);
 
   std::shared_ptr<const terrain::ObjectTerrain> objects_;
   std::optional<Key> key_;

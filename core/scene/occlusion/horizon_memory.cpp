@@ -57,6 +57,7 @@ DistanceImage HorizonMemory::picture(const EyePose& eye, const ViewShape& view, 
 void HorizonMemory::clear() {
   moving_.clear();
   key_.reset();
+  boxesHidLittleAt_.reset();
 }
 
 /// Returns true if the last horizon hid next to nothing and was built near here.
@@ -93,7 +94,9 @@ HorizonMemory::Result HorizonMemory::find(OcclusionGround& ground, Vec3 eye,
   frame.cut = key.cut.cut;
   frame.rule = key.cut.rule;
   frame.tiles = ground.cut().tiles;
-  frame.boxes = ground.boxes();
+  const bool fewBoxes = !alone && skips.littleHidden && boxesHidLittleAt_ &&
+                        length(eye - *boxesHidLittleAt_) < kBelievedM;
+  if (!fewBoxes) frame.boxes = ground.boxes();
   frame.errorOverDistance = key.cut.errorOverDistance;
   frame.settings = settings;
   frame.sameHorizon = skips.sameHorizon;
@@ -113,8 +116,12 @@ HorizonMemory::Result HorizonMemory::find(OcclusionGround& ground, Vec3 eye,
       const auto count = std::count(flags.begin(), flags.end(), std::uint8_t{1});
       return flags.empty() || isLittle(static_cast<std::size_t>(count), flags.size());
     };
-    hidLittle_ =
-        isLittleOf(hidden) && isLittleOf(moving_.hiddenBoxes()) && !SurfaceShare::isMany(missingThen_, nodes);
+    const bool boxesToo = isLittleOf(moving_.hiddenBoxes());
+    hidLittle_ = isLittleOf(hidden) && boxesToo && !SurfaceShare::isMany(missingThen_, nodes);
+    if (!boxesToo)
+      boxesHidLittleAt_.reset();
+    else if (!moving_.hiddenBoxes().empty())
+      boxesHidLittleAt_ = eye;
   }
   key_ = key;
   return {.hidden = hidden,

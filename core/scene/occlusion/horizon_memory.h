@@ -70,6 +70,8 @@ class HorizonMemory {
   MovingHorizon moving_;
   std::optional<Key> key_;
   bool hidLittle_ = false;
+  /// Where next to none of the boxes was hidden. Horizons begun near there leave the boxes out.
+  std::optional<Vec3> boxesHidLittleAt_;
   std::size_t missingThen_ = 0;              ///< surfaces that were missing when a horizon was last begun
   std::uint64_t frame_ = 0, lastFrame_ = 0;  ///< this frame, and that of the last find()
   std::uint64_t number_ = 0;

@@ -94,6 +94,8 @@ ScenePrograms::ScenePrograms()
                 {"terrain.vert.glsl", "node.frag.glsl", {"STATIC_TREE", "NODE_IDS"}},
                 {"object.vert.glsl", "object.frag.glsl"},
                 {"object.vert.glsl", "object.frag.glsl", {"TEXTURED"}},
+                {"object.vert.glsl", "object.frag.glsl", {"NODE_IDS"}},
+                {"object.vert.glsl", "object.frag.glsl", {"TEXTURED", "NODE_IDS"}},
                 {"tree_flat.vert.glsl", "line.frag.glsl"},
                 {"line.vert.glsl", "line.frag.glsl"},
                 {"screen.vert.glsl", "sky.frag.glsl"},

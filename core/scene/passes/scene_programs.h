@@ -45,6 +45,8 @@ enum class SceneShaders {
   tree_numbers,
   objects,
   textured_objects,
+  object_numbers,
+  textured_object_numbers,
   tree_picture,
   lines,
   sky,
@@ -72,7 +74,7 @@ class ScenePrograms {
   void setAir(const SceneView& view);
   void setDepthView(const DepthView& depth, const ViewShape& shape);
 
-  std::array<ShaderVariants, 14> shaders_;
+  std::array<ShaderVariants, 16> shaders_;
   Uniforms uniforms_, ofDepth_;
   unsigned defines_ = 0;
   SceneView view_;

@@ -9,7 +9,12 @@ in vec2 place;
 flat in float layer;
 uniform sampler2DArray objectTextures;
 #endif
+#ifdef NODE_IDS
+flat in uint owner;
+out uint node;
+#else
 out vec4 fragment;
+#endif
 void main() {
   vec3 shown = lit.rgb;
 #if defined(TEXTURED) && !defined(WIRE)
@@ -18,7 +23,10 @@ void main() {
   if (texel.a * lit.a < 0.5) discard;
   shown *= texel.rgb;
 #endif
-#ifdef IN_WEATHER
+#ifdef NODE_IDS
+  throughAir(shown, 1.0, relative);  // which discards what is too far to be seen
+  node = owner;
+#elif defined(IN_WEATHER)
   fragment = vec4(throughAir(shown, hazeLeaves(relative), relative), 1.0);
 #else
   fragment = vec4(throughAir(shown, clearness, relative), 1.0);

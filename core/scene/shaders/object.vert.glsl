@@ -11,6 +11,9 @@ layout(location = 4) in float textureNumber;
 layout(location = 5) in vec4 footAndScale;  // metres from the eye
 layout(location = 6) in vec4 turn;          // a unit quaternion, from the model's axes to the terrain's
 layout(location = 7) in vec4 instanceTint;
+#ifdef NODE_IDS
+flat out uint owner;  // the instance that is drawn, which has come as a colour
+#endif
 out vec4 lit;
 out float clearness;  // share of `lit` that haze leaves
 out vec3 relative;    // metres from the eye
@@ -25,6 +28,9 @@ void main() {
   lit = vec4(min(colour.rgb * light * 1.15, vec3(1.0)), colour.a);
 #ifdef TINTED
   lit.rgb = mix(lit.rgb, instanceTint.rgb * (0.25 + 0.75 * light), instanceTint.a);
+#endif
+#ifdef NODE_IDS
+  owner = packUnorm4x8(instanceTint);
 #endif
   relative = p;
   clearness = exp(-length(p) * (1.0 / HAZE_DISTANCE));

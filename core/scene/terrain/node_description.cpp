@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "trimtab/culling/box_distance.h"
+#include "trimtab/culling/cut_rule.h"
+#include "trimtab/culling/select_objects.h"
+#include "trimtab/terrain/format/object_terrain.h"
 #include "trimtab/terrain/format/patch_terrain.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
 
@@ -67,6 +70,17 @@ void measureInImage(const Box& box, const EyePose& eye, const ViewShape& view, N
   node.heightPx = std::max(0.0, height) * view.heightPx / (view.top - view.bottom);
 }
 
+EyePose eyeOf(const FrameRequest& request, const LocalFrame& frame) {
+  return {frame.fromGeodetic(request.eye), eyeAxes(frame, request.eye, request.attitude)};
+}
+
+/// Fills what follows from the bounds, the error and the view.
+void measure(NodeDescription& node, const EyePose& eye, const ViewShape& view) {
+  node.distanceM = std::sqrt(distanceSquared(node.bounds, eye.position));
+  node.errorPx = node.errorM / std::max(node.distanceM, view.nearM) * pixelsPerRadian(view);
+  measureInImage(node.bounds, eye, view, node);
+}
+
 }  // namespace
 
 std::optional<NodeDescription> describeNode(std::uint32_t node, const terrain::Database& database,
@@ -83,14 +97,35 @@ std::optional<NodeDescription> describeNode(std::uint32_t node, const terrain::D
   if (!described) return std::nullopt;
 
   NodeDescription& found = described->node;
-  const LocalFrame& frame = database.index().frame;
-  const EyePose eye{frame.fromGeodetic(request.eye), eyeAxes(frame, request.eye, request.attitude)};
-  const ViewShape& view = request.view;
-  found.distanceM = std::sqrt(distanceSquared(described->box, eye.position));
-  found.errorPx = found.errorM / std::max(found.distanceM, view.nearM) * pixelsPerRadian(view);
-  measureInImage(described->box, eye, view, found);
   found.reason = result.visible.reasonOf(node);
   found.bounds = described->box;
+  measure(found, eyeOf(request, database.index().frame), request.view);
+  return found;
+}
+
+std::optional<NodeDescription> describeObject(std::uint32_t instance, const terrain::Database& database,
+                                              const FrameRequest& request) {
+  const auto objects = database.objects();
+  if (!objects || instance >= objects->index.instances.size()) return std::nullopt;
+  const ObjectIndex& index = objects->index;
+  const ObjectInstance& object = index.instances[instance];
+  const ObjectIndex::Model& model = index.models[object.model];
+  const Vec3 foot = placeOfObject(index, instance);
+  const EyePose eye = eyeOf(request, index.frame);
+  const double distance = length(foot - eye.position);
+  const std::uint32_t level = levelOfObject(index, object, distance, objectRuleOf(request));
+  const double radius = double{model.radiusM} * object.scale;
+  const auto outwards = [&](double at, double by) { return static_cast<float>(at + by); };
+  NodeDescription found{
+      .form = "object",
+      .model = objects->names[object.model],
+      .level = static_cast<int>(level - model.firstLevel),
+      .triangles = index.levels[level].triangles,
+      .errorM = double{index.levels[level].errorM} * object.scale,
+      .reason = CullReason::drawn,
+      .bounds = {outwards(foot.x, -radius), outwards(foot.y, -radius), outwards(foot.z, -radius),
+                 outwards(foot.x, radius), outwards(foot.y, radius), outwards(foot.z, radius)}};
+  measure(found, eye, request.view);
   return found;
 }
 

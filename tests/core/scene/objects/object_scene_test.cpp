@@ -2,8 +2,12 @@
 #include "tests/core/scene/scene_test.h"
 #include "tests/core/scene/terrain/patched_terrain.h"
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
+#include <optional>
+
+#include "trimtab/culling/select_objects.h"
+#include "trimtab/scene/node_description.h"
 
 namespace trimtab::test {
 namespace {
@@ -62,6 +66,60 @@ TEST_F(ObjectScene, cullingChangesNoPixelInAnyForm) {
     EXPECT_GT(ofObjects, 1000u) << "the test would see nothing";
     EXPECT_GT(occluded * 4, inView);
   }
+}
+
+TEST_F(ObjectScene, eachPixelOfAnObjectIsWithinItsSphereAndTheOthersShowNone) {
+  plant(20000);
+  const auto objects = database->objects();
+  for (const TerrainForm form : {TerrainForm::patches, TerrainForm::tiles}) {
+    FrameRequest r = proposed(request(over(0.4, 0.45, 300), {Degrees{-12}, Degrees{5}, Degrees{70}}));
+    r.terrain.form = form;
+    r.levers.drawn.errorPx = 1;
+    const auto with = picture(r);
+    const auto shown = renderer.readObjects();
+    const auto distances = renderer.readDistances();
+    ASSERT_EQ(picture(r), with) << "reading changes no image";
+    FrameRequest bare = r;
+    bare.levers.drawn.objectFarM = 0;
+    const auto without = picture(bare);
+    const EyePose eye{objects->index.frame.fromGeodetic(r.eye),
+                      eyeAxes(objects->index.frame, r.eye, r.attitude)};
+    std::size_t ofObjects = 0, different = 0;
+    std::optional<std::uint32_t> some;
+    ASSERT_EQ(shown.size(), static_cast<std::size_t>(r.view.widthPx * r.view.heightPx));
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      if (shown[i] == scene::Renderer::kNoNode) {
+        different += !std::equal(with.begin() + 4 * i, with.begin() + 4 * i + 4, without.begin() + 4 * i);
+        continue;
+      }
+      ++ofObjects;
+      some = shown[i];
+      ASSERT_LT(shown[i], objects->index.instances.size());
+      const auto x = static_cast<double>(i % static_cast<std::size_t>(r.view.widthPx)) + 0.5,
+                 y = static_cast<double>(i / static_cast<std::size_t>(r.view.widthPx)) + 0.5;
+      const Vec3 ray{r.view.left + (r.view.right - r.view.left) * x / r.view.widthPx,
+                     r.view.bottom + (r.view.top - r.view.bottom) * y / r.view.heightPx, -1};
+      const Vec3 seen = eye.position + transposed(eye.axes) * (normalized(ray) * double{distances[i]});
+      const ObjectInstance& instance = objects->index.instances[shown[i]];
+      const double radius = double{objects->index.models[instance.model].radiusM} * instance.scale;
+      ASSERT_LT(length(seen - placeOfObject(objects->index, shown[i])),
+                radius + 1e-3 * double{distances[i]} + 0.1);
+    }
+    EXPECT_EQ(different, 0u);
+    EXPECT_GT(ofObjects, 2000u);
+    ASSERT_TRUE(some);
+    const auto described = scene::describeObject(*some, *database, r);
+    ASSERT_TRUE(described);
+    EXPECT_EQ(described->form, "object");
+    EXPECT_EQ(described->model, objects->names[objects->index.instances[*some].model]);
+    EXPECT_LE(described->errorPx, 1.001);
+    EXPECT_GT(described->widthPx, 0);
+  }
+  EXPECT_FALSE(scene::describeObject(20000, *database, request(over(0.4, 0.45, 300), {})));
+  database = patchedMountains(true);
+  renderer.setTerrain(database);
+  picture(request(over(0.4, 0.45, 300), {}));
+  for (const std::uint32_t object : renderer.readObjects()) ASSERT_EQ(object, scene::Renderer::kNoNode);
 }
 
 }  // namespace

@@ -64,6 +64,13 @@ struct VisibleObjects {
 /// like. It keeps every instance that may own a pixel. An eye that is not a number gets nothing.
 void selectObjects(const ObjectIndex& index, const ObjectQuery& query, VisibleObjects& visible);
 
+/// Returns where the origin of an instance's model is, metres in the local frame of the index.
+Vec3 placeOfObject(const ObjectIndex& index, std::uint32_t instance);
+/// Returns the level by which an instance is drawn, its number in ObjectIndex::levels, if the eye is so far
+/// from its model's origin, metres.
+std::uint32_t levelOfObject(const ObjectIndex& index, const ObjectInstance& instance, double distanceM,
+                            const CutRule& rule);
+
 /// Returns the cells as a horizon tests them, one for each: they hide nothing, and their boxes may be hidden.
 std::vector<Relief> reliefsOfCells(const ObjectIndex& index);
 

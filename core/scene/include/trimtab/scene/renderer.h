@@ -93,6 +93,9 @@ class Renderer {
   /// image of CullingCase::none, except for nodes that are far outside the view (nearView in node_pass.h).
   /// What the weather's far cut takes away is still sky.
   std::vector<std::uint32_t> readNodes(bool unculled = false);
+  /// Returns for each pixel of the last image the number of the object that it shows, in
+  /// ObjectIndex::instances, or kNoNode where it shows ground or sky. As readNodes() in all else.
+  std::vector<std::uint32_t> readObjects();
   /// Returns RGBA of the lower left corner of the last image, row 0 at the bottom, from the renderer's own
   /// copy of it. The size must not exceed the last image's, or pixels are undefined. Without a usable context
   /// all are 0.

@@ -14,7 +14,7 @@
 namespace trimtab::terrain {
 
 /// A cell of at most so many instances, or of so small a side, is not divided.
-inline constexpr std::uint32_t kLeafInstances = 128;
+inline constexpr std::uint32_t kLeafInstances = 32;
 inline constexpr double kLeafSideM = 16;
 
 /// Puts models on the ground: instances in a quadtree over x and y of `frame`, cells depth first, instances
