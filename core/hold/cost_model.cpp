@@ -22,14 +22,8 @@ constexpr std::size_t kMostLate = 3;
 /// Triangles count by ten thousands, so that all quantities are of one order.
 constexpr double kTriangleUnit = 1e-4;
 
-/// Returns the side of a square with as many pixels as the scene, thousands of pixels.
-double sideOf(const FrameLoad& load) {
-  return std::sqrt(std::max(load.sceneMpx, 0.0));
-}
-
-std::array<double, 4> groundOf(const FrameLoad& load) {
-  const double triangles = load.triangles * kTriangleUnit;
-  return {1, triangles, triangles * sideOf(load), load.groundMpx};
+std::array<double, 3> groundOf(const FrameLoad& load) {
+  return {1, load.triangles * kTriangleUnit, load.groundMpx};
 }
 std::array<double, 2> weatherOf(const FrameLoad& load) {
   return {load.particles, load.sceneMpx};
@@ -62,8 +56,7 @@ double medianOf(const std::deque<double>& values) {
 
 StageTimes predict(const ClockCoefficients& c, const FrameLoad& load) {
   StageTimes times;
-  times.ground = c.fixed + (c.perTriangle + c.perTriangleSide * sideOf(load)) * load.triangles +
-                 c.perGroundMpx * load.groundMpx;
+  times.ground = c.fixed + c.perTriangle * load.triangles + c.perGroundMpx * load.groundMpx;
   if (load.particles > 0) times.weather = c.perParticles * load.particles + c.perWeatherMpx * load.sceneMpx;
   if (load.blurs) times.blur = c.perBlurMpx * load.sceneMpx;
   times.other = c.other;
@@ -134,8 +127,7 @@ void ClockModel::observe(const FrameLoad& load, const ClockTimes& times) {
 ClockCoefficients ClockModel::coefficients() const {
   const auto& g = ground_.state().coefficient;
   const auto& w = weather_.state().coefficient;
-  return {g[0],  g[1] * kTriangleUnit, g[2] * kTriangleUnit, g[3], w[0], w[1], blur_.state().coefficient[0],
-          other_};
+  return {g[0], g[1] * kTriangleUnit, g[2], w[0], w[1], blur_.state().coefficient[0], other_};
 }
 
 double ClockModel::halfBandMs(const FrameLoad& load) const {

@@ -26,7 +26,6 @@ inline HoldGiven given(double timeS = 0) {
     g.triangles[k] = 1e5 * std::exp2(-static_cast<double>(k) / kPlacesPerOctave);
   static_cast<ClockCoefficients&>(g.cost) = {.fixed = 2,
                                              .perTriangle = 1e-4,
-                                             .perTriangleSide = 0,
                                              .perGroundMpx = 40,
                                              .perParticles = 3,
                                              .perWeatherMpx = 1,

@@ -49,30 +49,6 @@ TEST(CostModel, predictsWhatItLearned) {
   EXPECT_LE(covered, 0.97 * 800);
 }
 
-/// Triangles that cost by their number, by their length in pixels, or half by each: what was learned at full
-/// and half the render scale must hold between them.
-TEST(CostModel, learnsWhatATriangleCostsAtAnyScale) {
-  for (const double byLength : {0.0, 0.5, 1.0}) {
-    const auto costOf = [byLength](const FrameLoad& load) {
-      const double side = std::sqrt(load.sceneMpx);
-      FrameCost c;
-      c.total = 2 + 1.6e-4 * load.triangles * (1 - byLength + byLength * side) + 4 * load.groundMpx;
-      c.gpu = kNan;
-      return c;
-    };
-    Machine machine;
-    CostModel model;
-    for (int i = 0; i < 600; ++i) {
-      FrameLoad load = machine.nextLoad();
-      const double part = i % 50 < 25 ? 1 : 0.25;
-      load = {load.triangles, load.groundMpx * part, load.sceneMpx * part, 0, false};
-      model.observe(load, costOf(load));
-    }
-    const FrameLoad load{1.4e5, 0.1, 0.45, 0, false};
-    EXPECT_NEAR(predictedMs(model, load) / costOf(load).total, 1, 0.005) << byLength;
-  }
-}
-
 TEST(CostModel, aSpikeMovesItLittle) {
   Machine machine;
   CostModel model;

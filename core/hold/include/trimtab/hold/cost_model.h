@@ -27,11 +27,8 @@ struct FrameLoad {
 inline constexpr double kNormalBand = 1.645;
 
 /// Holds what the work of one clock costs, milliseconds per unit of its quantity.
-///
-/// A triangle costs perTriangle at any render scale. A software rasteriser also pays for the length of its
-/// edges in pixels: perTriangleSide times the side of the scene, which is the root of its millions of pixels.
 struct ClockCoefficients {
-  double fixed = 0, perTriangle = 0, perTriangleSide = 0, perGroundMpx = 0;
+  double fixed = 0, perTriangle = 0, perGroundMpx = 0;
   double perParticles = 0, perWeatherMpx = 0;
   double perBlurMpx = 0;
   double other = 0;
@@ -82,7 +79,7 @@ class ClockModel {
   const std::optional<Finding>& whyAnew() const { return whyAnew_; }
 
   struct State {
-    LinearCost<4>::State ground;
+    LinearCost<3>::State ground;
     LinearCost<2>::State weather;
     LinearCost<1>::State blur;
     double other = 0;
@@ -96,7 +93,7 @@ class ClockModel {
         return [&visit, path = prefix + name + '.'](const std::string& key, auto& number, double low,
                                                     double high) { visit(path + key, number, low, high); };
       };
-      LinearCost<4>::State::forEachNumber(self.ground, under("ground"));
+      LinearCost<3>::State::forEachNumber(self.ground, under("ground"));
       LinearCost<2>::State::forEachNumber(self.weather, under("weather"));
       LinearCost<1>::State::forEachNumber(self.blur, under("blur"));
       visit(prefix + "other", self.other, 0.0, cost_bounds::kLongestMs);
@@ -109,7 +106,7 @@ class ClockModel {
   void restore(const State& state);
 
  private:
-  LinearCost<4> ground_;
+  LinearCost<3> ground_;
   LinearCost<2> weather_;
   LinearCost<1> blur_;
   double other_ = 0, band_ = kNormalBand;

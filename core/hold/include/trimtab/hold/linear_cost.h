@@ -11,8 +11,8 @@ namespace trimtab {
 /// Bounds what can be measured, and so what can be learned. Times are milliseconds.
 namespace cost_bounds {
 inline constexpr double kShortestMs = 1e-6, kLongestMs = 60e3;
-/// The range of a quantity that is not 0: a pixel in millions of them, and ten thousand million triangles by
-/// the side of a scene, in ten thousands and thousands of pixels.
+/// The range of a quantity that is not 0: from a pixel in millions of them, to far more triangles than an
+/// image has, in ten thousands.
 inline constexpr double kLeastQuantity = 1e-6, kMostQuantity = 1e8;
 /// The range of what one unit of a quantity costs.
 inline constexpr double kLeastScale = kShortestMs / kMostQuantity / 10,
