@@ -94,11 +94,6 @@ const std::vector<Skip>& skips() {
          return !unchanged<&FrameCounters::horizonsLeftOut>(before, after);
        },
        without<&Skips::littleHidden>, itself, true},
-      {"depth map where it hid next to nothing",
-       [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
-         return !unchanged<&FrameCounters::mapsLeftOut>(before, after);
-       },
-       without<&Skips::littleHidden>, itself, true},
       {"tiles that the GPU holds already",
        [](const FrameRequest&, const FrameResult& before, const FrameResult& after) {
          return after.counters.tilesBuilt - before.counters.tilesBuilt < after.visible.tiles.size();

@@ -31,18 +31,8 @@ void DepthPyramid::resize(int width, int height) {
   cells_.resize(cells);
 }
 
-void DepthPyramid::build(std::span<const float> depths, int width, int height, int stride) {
-  resize(width, height);
-  for (int y = 0; y < height; ++y) {
-    const float* from = depths.data() + static_cast<std::ptrdiff_t>(y) * (stride == 0 ? width : stride);
-    float* to = cells_.data() + static_cast<std::ptrdiff_t>(y) * width;
-    for (int x = 0; x < width; ++x) to[x] = from[x] > 0 ? from[x] : 0;
-  }
-  reduce();
-}
-
-void DepthPyramid::buildFromPicture(std::span<const float> picture, int pictureWidth, int pictureHeight,
-                                    int width, int height) {
+void DepthPyramid::build(std::span<const float> picture, int pictureWidth, int pictureHeight, int width,
+                         int height) {
   resize(width, height);
   const auto from = [](int texel, int pixels, int texels) {
     return static_cast<int>(std::int64_t{texel} * pixels / texels);

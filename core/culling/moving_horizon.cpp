@@ -53,7 +53,8 @@ ValidityRegion MovingHorizon::regionAhead(Vec3 eye, double firstFrame, double la
               kTurnShare * 0.5 * lastFrame * lastFrame * length(turn_)};
 }
 
-/// Returns what the build in use proves of the tiles that it was built for, and keeps what it proves of boxes.
+/// Returns what the build in use proves of the tiles that it was built for, and keeps what it proves of
+/// boxes.
 std::span<const std::uint8_t> MovingHorizon::verdictsOfBuild() {
   const Build& build = builds_[active_];
   const std::span<const std::uint8_t> all = build.horizon.hidden();

@@ -32,7 +32,7 @@ std::size_t OcclusionChoice::armOf(Method method) {
 
 OcclusionChoice::Method OcclusionChoice::methodOf(std::size_t arm) {
   static_assert(static_cast<std::size_t>(OcclusionMethod::automatic) == 0);
-  static_assert(static_cast<std::size_t>(OcclusionMethod::horizon) + 1 == kArms);
+  static_assert(static_cast<std::size_t>(OcclusionMethod::depth_map) + 1 == kArms);
   return arm == 0 ? Method{} : static_cast<OcclusionMethod>(arm);
 }
 

@@ -7,9 +7,8 @@ FrameCounters& FrameCounters::operator+=(const FrameCounters& other) {
        {&FrameCounters::precipitationPasses, &FrameCounters::blurPasses, &FrameCounters::symbologyDraws,
         &FrameCounters::particlesDrawn, &FrameCounters::symbologyRedraws, &FrameCounters::hostSymbolsLeftOut,
         &FrameCounters::cutsSelected, &FrameCounters::visibleSelected, &FrameCounters::tilesBuilt,
-        &FrameCounters::tilesBuiltAhead, &FrameCounters::depthMapsDrawn, &FrameCounters::mapsDrawnByCpu,
-        &FrameCounters::mapsLeftOut, &FrameCounters::horizonsBuilt, &FrameCounters::horizonsMoved,
-        &FrameCounters::horizonsLeftOut, &FrameCounters::occlusionsLeftOut})
+        &FrameCounters::tilesBuiltAhead, &FrameCounters::depthMapsDrawn, &FrameCounters::horizonsBuilt,
+        &FrameCounters::horizonsMoved, &FrameCounters::horizonsLeftOut, &FrameCounters::occlusionsLeftOut})
     this->*counter += other.*counter;
   return *this;
 }

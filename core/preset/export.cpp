@@ -190,8 +190,8 @@ std::string asIni(const TuningParameters& parameters, const std::string& name, c
 
 std::string machineNote(const TuningParameters& parameters) {
   if (parameters.culling.occlusion != OcclusionMethod::automatic) return {};
-  return "culling.occlusion is auto: which method hides ground, and so what a frame costs, depends on the "
-         "machine.";
+  return "culling.occlusion is auto: whether hidden ground is looked for, and so what a frame costs, depends "
+         "on the machine.";
 }
 
 std::string exportText(const ValidatedParameters& parameters, const std::string& name,

@@ -37,7 +37,8 @@ struct WithdrawnChoice {
   std::string_view key, value, replacement;
 };
 constexpr WithdrawnChoice kWithdrawnChoices[] = {{"culling.occlusion", "read_back", "depth_map"},
-                                                 {"culling.occlusion", "horizon_and_map", "auto"},
+                                                 {"culling.occlusion", "cpu_map", "horizon"},
+                                                 {"culling.occlusion", "horizon_and_map", "horizon"},
                                                  {"terrain.form", "levels", "tiles"}};
 
 void replaceWithdrawn(std::vector<RawParameter>& parameters, FindingList& notes) {

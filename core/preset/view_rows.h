@@ -16,13 +16,13 @@ inline constexpr std::array kViewRows{
         {.key = "culling.occlusion",
          .label = "Occlusion culling",
          .help =
-             "What proves that ground is hidden, where the scheme is dynamic. Automatic: whichever costs the "
-             "frame least as measured on this machine, or none where it would not pay. Published depth map: "
-             "drawn and tested on the GPU. By the processor: a depth map drawn and tested without GL. "
-             "Horizon: computed around the eye's position, so that it stays valid while the head turns. "
-             "Horizon, then depth map: the processor's map tests what the horizon leaves. All draw the same "
-             "image. The band's size is the resolution of each. Where the chosen method cannot be used the "
-             "dock Culling says what is used instead. Static trees always use a depth map."}),
+             "What proves that ground is hidden, where the scheme is dynamic. Horizon: computed around the "
+             "eye's position, so that it stays valid while the head turns. Automatic: the horizon, or "
+             "nothing "
+             "where it would not pay, as measured on this machine. Published depth map: drawn and tested on "
+             "the GPU. All draw the same image. The band's size is the resolution of each. Where the chosen "
+             "method cannot be used the dock Culling says what is used instead. Static trees always use a "
+             "depth map."}),
     row<&TuningParameters::culling, &CullingParameters::backFaces>(
         {.key = "culling.back_faces",
          .label = "Leave out back faces",

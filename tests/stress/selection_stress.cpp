@@ -251,7 +251,7 @@ TEST(SelectionStress, theDepthMapHidesOnlyWhatIsBehindIt) {
     for (float& d : depths)
       d = dice.one(0.02) ? 0 : static_cast<float>(v.nearM / wall * (1 + 0.01 * dice.unit()));
     DepthPyramid pyramid;
-    pyramid.build(depths, width, height);
+    pyramid.build(depths, width, height, width, height);
     const double depth = wall * (dice.one(0.5) ? 1 + 2e-4 * dice.unit() : dice.metres(1, 10));
     const Box box = boxAt(inPicture(eye, v, dice, depth), dice, depth * 0.2 * dice.unit());
     Quad low[2] = {1e30, 1e30}, high[2] = {-1e30, -1e30}, nearest = 1e30;
@@ -276,7 +276,7 @@ TEST(SelectionStress, theDepthMapHidesOnlyWhatIsBehindIt) {
                    [&] { return "depth " + digits(depth) + " behind " + digits(wall); });
 
     std::fill(depths.begin(), depths.end(), static_cast<float>(v.nearM / wall));
-    pyramid.build(depths, width, height);
+    pyramid.build(depths, width, height, width, height);
     const Box behind = boxAt(inPicture(eye, v, dice, 10 * wall), dice, wall * 0.1);
     // Nearer than that the floats of a box a thousand kilometres from the origin reach the eye.
     if (wall > 10) seen.require(pyramid.isHidden(behind, eye, v));

@@ -155,7 +155,7 @@ void TraceBuffer::append(const LiveFrame& frame) {
   const FrameResult& drawn = frame.drawn();
   const SignalValues& signal = frame.input.signalValues;
   const auto measuredOr0 = [](double ms) { return std::isfinite(ms) ? ms : 0.0; };
-  const auto lever = [&frame](double FrameLevers::* value) {
+  const auto lever = [&frame](double FrameLevers::*value) {
     return frame.levers ? frame.levers->drawn.*value : std::numeric_limits<double>::quiet_NaN();
   };
   const double selectTop = measuredOr0(cost.decide) + measuredOr0(cost.select);

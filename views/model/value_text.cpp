@@ -16,8 +16,7 @@ QString tr(const char* text) {
 }
 
 bool isList(const ParameterRow& row) {
-  return row.kind == Kind::curve || row.kind == Kind::bands ||
-         row.kind == Kind::lines;
+  return row.kind == Kind::curve || row.kind == Kind::bands || row.kind == Kind::lines;
 }
 
 /// Returns the entries of a list, each as files spell it.

@@ -37,12 +37,10 @@ QString whatServes(OcclusionMethod method, const QString& size) {
   switch (method) {
     case OcclusionMethod::depth_map:
       return CullingPanel::tr("The <b>depth map</b> that GL draws serves%1.").arg(size);
-    case OcclusionMethod::cpu_map:
-      return CullingPanel::tr("A <b>depth map by the processor</b> serves%1.").arg(size);
-    case OcclusionMethod::horizon:
-      return CullingPanel::tr("The <b>horizon</b> serves: what the ground about the eye hides, all round.");
     case OcclusionMethod::automatic:
       break;
+    case OcclusionMethod::horizon:
+      return CullingPanel::tr("The <b>horizon</b> serves: what the ground about the eye hides, all round.");
   }
   return {};
 }
@@ -188,9 +186,6 @@ QString CullingPanel::served() const {
     if (!note.isEmpty()) sentences << note;
     if (!frame_.drawn().horizon && note.isEmpty() && method == OcclusionMethod::horizon)
       sentences << horizonLeftOut();
-    if (!frame_.drawn().depthMap && !frame_.drawn().visible.tiles.empty() &&
-        method == OcclusionMethod::cpu_map)
-      sentences << tr("The map is left out: near here one hid next to nothing.");
     return sentences.join(QLatin1Char(' '));
   }
   if (frame_.drawn().depthMap) return tr("A <b>depth map</b> of the static trees serves%1.").arg(size);
@@ -232,11 +227,9 @@ void CullingPanel::refresh() {
                              count(f.objects.outsideFrustum), count(f.objects.occluded),
                              count(f.objects.tooFar), count(f.objects.tooSmall)));
   work_->setText(tr("Cuts chosen %1, views %2; horizons built %3, moved along %4, left out %5; depth maps "
-                    "by GL %6, by the processor %7, left out %8; frames in which nothing was worth its "
-                    "cost %9.")
+                    "drawn %6; frames in which nothing was worth its cost %7.")
                      .arg(count(work.cutsSelected), count(work.visibleSelected), count(work.horizonsBuilt),
                           count(work.horizonsMoved), count(work.horizonsLeftOut), count(work.depthMapsDrawn),
-                          count(work.mapsDrawnByCpu), count(work.mapsLeftOut),
                           count(work.occlusionsLeftOut)));
 }
 

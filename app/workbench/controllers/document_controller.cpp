@@ -116,7 +116,7 @@ bool DocumentController::mayLoseEdits() {
 }
 
 bool DocumentController::exportTo(const QString& file, ExportFormat format, const QString& author,
-                                  const QString& comment, std::optional<OcclusionMethod> pinned) {
+                                  const QString& comment) {
   if (at_.draft.isBroken()) {
     at_.messages.add(tr("Nothing is exported while the preset breaks a rule"), at_.draft.findings());
     return false;
@@ -126,13 +126,11 @@ bool DocumentController::exportTo(const QString& file, ExportFormat format, cons
   provenance.created = QDateTime::currentDateTimeUtc().toString(Qt::ISODate).toStdString();
   provenance.program = "trimtab " TRIMTAB_VERSION;
   provenance.terrain = terrainName_.toStdString();
-  TuningParameters parameters = *at_.draft.active();
-  if (pinned) parameters.culling.occlusion = *pinned;
-  const std::string note = machineNote(parameters);
+  const std::string note = machineNote(*at_.draft.active());
   provenance.comment = comment.toStdString() + (comment.isEmpty() || note.empty() ? "" : " ") + note;
   const QString name =
       document_.file().isEmpty() ? document_.title() : QFileInfo(document_.file()).completeBaseName();
-  const std::string text = exportText(*validate(parameters), name.toStdString(), provenance, format);
+  const std::string text = exportText(at_.draft.active(), name.toStdString(), provenance, format);
   const QString absolute = QFileInfo(file).absoluteFilePath();
   const Result<Done> written = writeAtomically(absolute.toStdString(), text);
   if (!written) {
@@ -145,10 +143,7 @@ bool DocumentController::exportTo(const QString& file, ExportFormat format, cons
 }
 
 void DocumentController::askExport() {
-  std::optional<OcclusionMethod> chosen;
-  if (at_.draft.active()->culling.occlusion == OcclusionMethod::automatic)
-    if (const auto& last = at_.viewport.lastResult()) chosen = last->occlusion;
-  ExportDialog dialog(chosen, target_, &at_.window);
+  ExportDialog dialog(target_, &at_.window);
   if (dialog.exec() != QDialog::Accepted) return;
   QString file = dialog.file();
   if (file.isEmpty()) {
@@ -158,7 +153,7 @@ void DocumentController::askExport() {
     if (files.exec() != QDialog::Accepted) return;
     file = files.selectedFiles().constFirst();
   }
-  const ExportTarget target{file, dialog.format(), dialog.author(), dialog.comment(), dialog.pinned()};
+  const ExportTarget target{file, dialog.format(), dialog.author(), dialog.comment()};
   if (!exportTo(target)) return;
   target_ = target;
   if (!document_.file().isEmpty()) rememberTarget(document_.file(), target);
@@ -172,9 +167,7 @@ void DocumentController::exportAgain() {
 }
 
 bool DocumentController::exportTo(const ExportTarget& target) {
-  const bool automatic = at_.draft.active()->culling.occlusion == OcclusionMethod::automatic;
-  return exportTo(target.file, target.format, target.author, target.comment,
-                  automatic ? target.pinned : std::nullopt);
+  return exportTo(target.file, target.format, target.author, target.comment);
 }
 
 void DocumentController::offerRecovery() {

@@ -32,10 +32,8 @@ class DocumentController : public QObject {
   bool save();
   bool saveAs();
   /// Writes the active parameters for an image generator. Returns false while the draft breaks a rule, or if
-  /// the file cannot be written. `pinned` replaces the automatic choice of what hides ground; without it an
-  /// export that has that choice says in its comment that it depends on the machine.
-  bool exportTo(const QString& file, ExportFormat format, const QString& author, const QString& comment,
-                std::optional<OcclusionMethod> pinned = {});
+  /// the file cannot be written. What depends on the machine joins the comment.
+  bool exportTo(const QString& file, ExportFormat format, const QString& author, const QString& comment);
   /// The terrain that an export names as the one it was tuned over.
   void setTerrainName(const QString& name) { terrainName_ = name; }
 

@@ -2,10 +2,7 @@
 #include "export_target.h"
 
 #include <QSettings>
-#include <iterator>
 #include <vector>
-
-#include "trimtab/preset/choices.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -13,7 +10,6 @@ namespace {
 const QString kTargets = QStringLiteral("export/targets");
 constexpr int kKept = 20;
 constexpr int kFormats = int(ExportFormat::ini) + 1;
-constexpr int kMethods = int(std::size(table::ChoicesOf<OcclusionMethod>::options));
 
 struct Remembered {
   QString presetFile;
@@ -37,11 +33,10 @@ std::vector<Remembered> read() {
   for (int i = 0; i < size; ++i) {
     settings.setArrayIndex(i);
     const auto format = choiceIn<ExportFormat>(settings.value("format"), kFormats);
-    const auto pinned = choiceIn<OcclusionMethod>(settings.value("pinned"), kMethods);
-    if (!format || (settings.contains("pinned") && !pinned)) continue;
+    if (!format) continue;
     all.push_back({settings.value("preset").toString(),
                    {settings.value("file").toString(), *format, settings.value("author").toString(),
-                    settings.value("comment").toString(), pinned}});
+                    settings.value("comment").toString()}});
   }
   return all;
 }
@@ -63,7 +58,6 @@ void rememberTarget(const QString& presetFile, const ExportTarget& target) {
     settings.setValue("format", int(all[i].target.format));
     settings.setValue("author", all[i].target.author);
     settings.setValue("comment", all[i].target.comment);
-    if (all[i].target.pinned) settings.setValue("pinned", int(*all[i].target.pinned));
   }
   settings.endArray();
 }

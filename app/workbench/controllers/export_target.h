@@ -13,8 +13,6 @@ struct ExportTarget {
   QString file;
   ExportFormat format = ExportFormat::json;
   QString author, comment;
-  /// Replaces the automatic choice of what hides ground; unset if that choice is exported.
-  std::optional<OcclusionMethod> pinned;
 };
 
 /// Keeps the target of a preset's file in the person's settings. Only the newest targets are kept.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "export_dialog.h"
 
-#include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFileDialog>
@@ -13,8 +12,6 @@
 #include <QPushButton>
 #include <QSettings>
 
-#include "views/model/theme.h"
-
 namespace trimtab::workbench {
 namespace {
 
@@ -22,15 +19,12 @@ const QString kAuthorKey = QStringLiteral("export/author");
 
 }  // namespace
 
-ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, const std::optional<ExportTarget>& before,
-                           QWidget* parent)
+ExportDialog::ExportDialog(const std::optional<ExportTarget>& before, QWidget* parent)
     : QDialog(parent),
       format_(new QComboBox(this)),
       file_(new QLineEdit(this)),
       author_(new QLineEdit(this)),
-      comment_(new QPlainTextEdit(this)),
-      chosen_(chosen),
-      pin_(new QCheckBox(this)) {
+      comment_(new QPlainTextEdit(this)) {
   setWindowTitle(tr("Export preset"));
   file_->setObjectName(QStringLiteral("file"));
   format_->addItem(tr("JSON"), int(ExportFormat::json));
@@ -64,17 +58,6 @@ ExportDialog::ExportDialog(std::optional<OcclusionMethod> chosen, const std::opt
     form->addRow(tr("Fi&le"), makeFile(before->file));
   else
     file_->hide();
-  form->addRow(pin_);
-  pin_->setVisible(chosen_.has_value());
-  pin_->setChecked(before && before->pinned);
-  if (chosen_) {
-    const ParameterRow& row = *findRow("culling.occlusion");
-    pin_->setText(tr("&Pin occlusion culling to “%1”")
-                      .arg(views::fromView(row.choices[static_cast<std::size_t>(*chosen_)].label)));
-    pin_->setToolTip(
-        tr("The automatic choice depends on the machine: each measures which method costs least. "
-           "Pinned, the image generator uses what this machine uses in the current view."));
-  }
   form->addRow(buttons);
 }
 
@@ -111,10 +94,6 @@ QString ExportDialog::author() const {
 }
 QString ExportDialog::comment() const {
   return comment_->toPlainText().trimmed();
-}
-
-std::optional<OcclusionMethod> ExportDialog::pinned() const {
-  return pin_->isChecked() ? chosen_ : std::nullopt;
 }
 
 QString ExportDialog::suffix() const {

@@ -7,29 +7,24 @@
 #include "app/workbench/controllers/export_target.h"
 #include "trimtab/preset/preset.h"
 
-class QCheckBox;
 class QComboBox;
 class QLineEdit;
 class QPlainTextEdit;
 
 namespace trimtab::workbench {
 
-/// Asks for what an export contains beside the parameters: format, author and comment, and whether what the
-/// automatic choice of occlusion culling chose here is pinned; and after the first export also for the file,
-/// so that another dialog is needed only for a new one. The author is remembered in the user's settings.
+/// Asks for what an export contains beside the parameters: format, author and comment; and after the first
+/// export also for the file, so that another dialog is needed only for a new one. The author is remembered in
+/// the user's settings.
 class ExportDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// `before` fills the fields as they were at the last export. `chosen` is what the automatic choice uses in
-  /// the current view; unset if the choice is not automatic, or if no method pays there.
-  explicit ExportDialog(std::optional<OcclusionMethod> chosen, const std::optional<ExportTarget>& before,
-                        QWidget* parent = nullptr);
+  /// `before` fills the fields as they were at the last export.
+  explicit ExportDialog(const std::optional<ExportTarget>& before, QWidget* parent = nullptr);
   ExportFormat format() const;
   QString author() const;
   QString comment() const;
-  /// Returns the method to write in place of the automatic choice; unset if that stays.
-  std::optional<OcclusionMethod> pinned() const;
   /// Returns the file of the last export, or what the person made of it; empty if it is still to be asked
   /// for.
   QString file() const;
@@ -44,8 +39,6 @@ class ExportDialog : public QDialog {
   QLineEdit* file_;
   QLineEdit* author_;
   QPlainTextEdit* comment_;
-  std::optional<OcclusionMethod> chosen_;
-  QCheckBox* pin_;
 };
 
 /// Returns the format by the file's ending: JSON unless it is .xml or .ini.

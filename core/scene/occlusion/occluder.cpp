@@ -107,6 +107,17 @@ std::size_t onRing(int i) {
   }
 }
 
+/// Returns the box of a square of cells, metres from the tile's origin.
+Box boxOfCells(const terrain::TileMesh& mesh, int x0, int y0, int cells) {
+  Box box = kNoBox;
+  for (int y = y0; y <= y0 + cells; ++y)
+    for (int x = x0; x <= x0 + cells; ++x) {
+      const terrain::TileVertex& v = mesh.vertices[at(x, y)];
+      box = united(box, v.x, v.y, v.z);
+    }
+  return box;
+}
+
 void makeParts(const terrain::TileMesh& mesh, TileOccluder& occluder) {
   constexpr int kCellsASide = kCells / kPartsPerSide;
   for (int part = 0; part < kParts; ++part) {
@@ -118,16 +129,6 @@ void makeParts(const terrain::TileMesh& mesh, TileOccluder& occluder) {
 }
 
 }  // namespace
-
-Box boxOfCells(const terrain::TileMesh& mesh, int x0, int y0, int cells) {
-  Box box = kNoBox;
-  for (int y = y0; y <= y0 + cells; ++y)
-    for (int x = x0; x <= x0 + cells; ++x) {
-      const terrain::TileVertex& v = mesh.vertices[at(x, y)];
-      box = united(box, v.x, v.y, v.z);
-    }
-  return box;
-}
 
 std::vector<std::uint16_t> makeOccluderIndices() {
   std::vector<std::uint16_t> indices = makeCoarseIndices(kOccluderStep);

@@ -38,9 +38,6 @@ struct TileOccluder {
   std::array<PartBox, kParts> parts;
 };
 
-/// Returns the box of a square of a tile's cells, metres from the tile's origin.
-Box boxOfCells(const terrain::TileMesh& mesh, int x0, int y0, int cells);
-
 /// Returns the triangles that all occluders share, counter-clockwise from above and from outside.
 std::vector<std::uint16_t> makeOccluderIndices();
 

@@ -10,7 +10,6 @@
 #include "trimtab/culling/select.h"
 #include "trimtab/culling/select_objects.h"
 #include "trimtab/culling/surface_tree.h"
-#include "trimtab/scene/distance_image.h"
 
 namespace trimtab::scene {
 
@@ -52,14 +51,6 @@ class OcclusionGround {
   virtual void forgetOthers() = 0;
   /// Returns false if, as far as is known, a place may have two heights. Then there is no horizon.
   virtual bool isGraph() { return true; }
-
-  /// Tests `visible` with the CPU's depth map of this size. Returns one flag per tile, as removeOccluded
-  /// reads them. `loweringScale` is MapView::lowering.
-  virtual std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
-                                                    const ViewShape& view, OcclusionResolution size,
-                                                    double loweringScale) = 0;
-  /// Returns the last of these maps as an image in greys.
-  virtual DistanceImage mapPicture() const = 0;
 
   /// Returns the limit on surfaces made per frame.
   SurfaceShare& share() { return share_; }

@@ -10,16 +10,12 @@
 namespace trimtab::scene {
 namespace {
 
-/// A map that hid little is not drawn again until the eye has moved by HorizonMemory::kBelievedM or turned by
-/// this angle, radians.
-constexpr double kBelievedTurn = 0.05;
-
-/// A frame for which many surfaces are missing says nothing about what a method is worth, unless so many
+/// A frame for which many surfaces are missing says nothing about what the horizon is worth, unless so many
 /// follow each other.
 constexpr int kUnlearntFrames = 600;
 
-constexpr const char* kNothingPays = "No method of finding hidden ground is worth its cost here.";
-constexpr const char* kNoGpuMap = "Patches have no depth map on the GPU; the processor draws one instead.";
+constexpr const char* kNothingPays = "Finding hidden ground is not worth its cost here.";
+constexpr const char* kNoGpuMap = "Patches have no depth map on the GPU; the horizon serves instead.";
 constexpr const char* kNoGraph =
     "Some of this ground is vertical or overhangs, or is not loaded yet, so there is no horizon.";
 
@@ -49,9 +45,7 @@ void OcclusionStage::clear() {
   chosen_ = false;
   serves_.reset();
   hidden_ = hiddenBoxes_ = {};
-  mapHid_ = false;
   visibleKey_.reset();
-  barren_.reset();
 }
 
 void OcclusionStage::setSubpixelBits(int bits) {
@@ -64,7 +58,6 @@ void OcclusionStage::setSubpixelBits(int bits) {
 void OcclusionStage::plant(const Defects& defects) {
   defects_ = defects;
   visibleKey_.reset();
-  barren_.reset();
 }
 
 void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps) {
@@ -77,23 +70,45 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool
   memory_.beginFrame();
   result_ = {};
   counters_ = {};
-  if (const auto resolution = occlusionResolution(request)) {
-    resolution_ = *resolution;
-    if (refusal_.empty())
-      serves_ = resolve(request, gpuDrawsMaps);
-    else
-      result_.note = refusal_;
-  }
-  if (!chosen_) choice_.pause();
-  result_.occlusion = serves_;
   // If counts must not depend on earlier frames, all surfaces are made at once.
   const bool atOnce = request.reproducible || request.waitForPages;
   ground_.share().begin(atOnce ? std::numeric_limits<std::size_t>::max() : SurfaceShare::kAFrame);
-  if (!serves(OcclusionMethod::horizon)) return;
+  if (const auto resolution = occlusionResolution(request)) {
+    resolution_ = *resolution;
+    result_.note = refusal_;
+    if (refusal_.empty()) serves_ = choose(request);
+    if (serves(OcclusionMethod::depth_map) && !gpuDrawsMaps) {
+      serves_ = OcclusionMethod::horizon;
+      result_.note = kNoGpuMap;
+    }
+  }
+  if (!chosen_) choice_.pause();
+  if (serves(OcclusionMethod::horizon)) findHorizon(request);
+  result_.occlusion = serves_;
+}
+
+/// Chooses between the horizon and nothing by cost, unless the request names a method.
+std::optional<OcclusionMethod> OcclusionStage::choose(const FrameRequest& request) {
+  static constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon};
+  if (request.occlusion != OcclusionMethod::automatic) return request.occlusion;
+  if (request.reproducible) return OcclusionMethod::horizon;
+  const std::uint64_t band = (static_cast<std::uint64_t>(resolution_.widthPx) << 32) |
+                             static_cast<std::uint32_t>(resolution_.heightPx);
+  chosen_ = true;
+  const auto method = choice_.choose({drawingMs_, eye_.position, forwardOf(eye_), ground_.cutNumber().rule,
+                                      kMethods, band, roomMs(request.hold)});
+  if (!method) {
+    ++counters_.occlusionsLeftOut;
+    result_.note = kNothingPays;
+  }
+  return method;
+}
+
+void OcclusionStage::findHorizon(const FrameRequest& request) {
   // A frame that must not depend on earlier ones uses no horizon of another eye position.
   const bool alone = request.reproducible && !request.skips.littleHidden;
   const HorizonMemory::Result found =
-      memory_.find(ground_, eye.position,
+      memory_.find(ground_, eye_.position,
                    {.columns = HorizonMemory::columnsFor(resolution_.widthPx),
                     .slack = HorizonMemory::slackOf(request.view, subpixelBits_),
                     .raised = defects_.loweringScale < 1,
@@ -108,37 +123,6 @@ void OcclusionStage::begin(const FrameRequest& request, const EyePose& eye, bool
   if (!found.noGraph) return;
   result_.note = kNoGraph;
   serves_.reset();
-  result_.occlusion.reset();
-}
-
-std::optional<OcclusionMethod> OcclusionStage::resolve(const FrameRequest& request, bool gpuDrawsMaps) {
-  using enum OcclusionMethod;
-  OcclusionMethod method = request.occlusion;
-  if (method == automatic) {
-    if (!request.reproducible) return choose(request);
-    method = horizon;
-  }
-  if (method == depth_map && !gpuDrawsMaps) {
-    method = cpu_map;
-    result_.note = kNoGpuMap;
-  }
-  return method;
-}
-
-/// Chooses the method by cost. The GPU's depth map is not among them: on a software rasteriser the
-/// processor's own map does the same for less, and on a GPU the frame would wait for the result.
-std::optional<OcclusionMethod> OcclusionStage::choose(const FrameRequest& request) {
-  static constexpr OcclusionMethod kMethods[] = {OcclusionMethod::horizon, OcclusionMethod::cpu_map};
-  const std::uint64_t band = (static_cast<std::uint64_t>(resolution_.widthPx) << 32) |
-                             static_cast<std::uint32_t>(resolution_.heightPx);
-  chosen_ = true;
-  const auto method = choice_.choose({drawingMs_, eye_.position, forwardOf(eye_), ground_.cutNumber().rule,
-                                      kMethods, band, roomMs(request.hold)});
-  if (!method) {
-    ++counters_.occlusionsLeftOut;
-    result_.note = kNothingPays;
-  }
-  return method;
 }
 
 bool OcclusionStage::visibleStays(const FrameRequest& request) {
@@ -156,40 +140,7 @@ bool OcclusionStage::visibleStays(const FrameRequest& request) {
   const bool stays = request.skips.sameVisible && !serves(OcclusionMethod::depth_map) && visibleKey_ == key;
   visibleKey_ = key;
   counters_.visibleSelected += !stays;
-  mapHid_ = mapHid_ && stays;
-  if (mapHid_) result_.depthMap = resolution_;
   return stays;
-}
-
-bool OcclusionStage::mapHidLittleNear() const {
-  if (!barren_ || barren_->method != serves_ || barren_->resolution != resolution_ ||
-      barren_->rule != ground_.cutNumber().rule)
-    return false;
-  return length(eye_.position - barren_->eye) < HorizonMemory::kBelievedM &&
-         length(forwardOf(eye_) - barren_->forward) < kBelievedTurn;
-}
-
-std::span<const std::uint8_t> OcclusionStage::hiddenByMap(const FrameRequest& request,
-                                                          const VisibleSet& visible) {
-  if (!mapServes() || visible.tiles.empty()) return {};
-  if (request.skips.littleHidden && mapHidLittleNear()) {
-    ++counters_.mapsLeftOut;
-    return {};
-  }
-  const auto flags = ground_.hiddenByMap(visible.tiles, eye_, view_, resolution_, defects_.loweringScale);
-  mapHid_ = true;
-  ++counters_.mapsDrawnByCpu;
-  result_.depthMap = resolution_;
-  if (ground_.share().missesAny())
-    visibleKey_.reset();  // the next frame's map knows more
-  else if (visibleKey_)
-    visibleKey_->surfaces = ground_.share().made();
-  const auto hidden = static_cast<std::size_t>(std::count(flags.begin(), flags.end(), std::uint8_t{1}));
-  if (HorizonMemory::isLittle(hidden, visible.tiles.size()) && !ground_.share().missesMany())
-    barren_ = {eye_.position, forwardOf(eye_), ground_.cutNumber().rule, resolution_, *serves_};
-  else
-    barren_.reset();
-  return flags;
 }
 
 void OcclusionStage::finished(const FrameResult& result) {
@@ -231,7 +182,6 @@ VisibleQuery OcclusionStage::query(const FrameRequest& request) {
 }
 
 DistanceImage OcclusionStage::picture() const {
-  if (mapHid_) return ground_.mapPicture();
   if (horizon()) return memory_.picture(eye_, view_, resolution_.widthPx, resolution_.heightPx);
   return {};
 }

@@ -16,9 +16,9 @@
 
 namespace trimtab::scene {
 
-/// The stage of a frame that looks for hidden ground: it decides which method is used, and runs the horizon
-/// and the processor's depth map. It serves tiles and patches alike and keeps its results while they stay
-/// valid. Needs no GL context; TileDrawer runs the GPU's depth map.
+/// The stage of a frame that looks for hidden ground: it decides which method is used, and runs the horizon.
+/// It serves tiles and patches alike and keeps its results while they stay valid. Needs no GL context;
+/// TileDrawer runs the published depth map.
 ///
 /// The occlusion resolution is the size in texels that the band of the decision asks for. Presets, traces and
 /// the papers call it the size of the depth map, but it sizes the horizon too: the horizon has two columns
@@ -37,9 +37,9 @@ class OcclusionStage {
   /// Sets deliberate errors, for tests that see the proof fail.
   void plant(const Defects& defects);
 
-  // Call these in this order in every frame; query and hiddenByMap only if visibleStays returned false.
+  // Call these in this order in every frame; query only if visibleStays returned false.
   /// Decides which method is used and finds what the horizon hides. The ground must have the cut of this
-  /// frame. `gpuDrawsMaps` says whether the caller can draw the GPU's depth map; if not, the processor's
+  /// frame. `gpuDrawsMaps` says whether the caller can draw the published depth map; if not, the horizon
   /// replaces it.
   void begin(const FrameRequest& request, const EyePose& eye, bool gpuDrawsMaps);
   /// Returns one flag per tile of the cut, not 0 if the horizon proves it hidden; or nothing.
@@ -50,35 +50,29 @@ class OcclusionStage {
   std::uint64_t horizonNumber() const { return hidden_.empty() ? 0 : memory_.number(); }
   /// Returns the query that selects what of the ground's cut is visible.
   VisibleQuery query(const FrameRequest& request);
-  /// Returns true if the visible set of the last frame is still right, including what a map removed.
-  /// Otherwise the caller must select it again, which is counted.
+  /// Returns true if the visible set of the last frame is still right. Otherwise the caller must select it
+  /// again, which is counted.
   bool visibleStays(const FrameRequest& request);
-  /// Tests a newly selected visible set with the processor's map. Returns flags as removeOccluded reads them,
-  /// or nothing if the map is not used.
-  std::span<const std::uint8_t> hiddenByMap(const FrameRequest& request, const VisibleSet& visible);
   /// Return what this frame's calls have found so far, and how much work they did.
   const OcclusionResult& result() const { return result_; }
   const FrameCounters& counters() const { return counters_; }
   /// Learns from what the finished frame cost.
   void finished(const FrameResult& result);
 
-  /// Returns the method used in this frame; unset if nothing looks for hidden ground.
-  std::optional<OcclusionMethod> serves() const { return serves_; }
+  /// Reports whether this frame uses a method.
   bool serves(OcclusionMethod method) const { return serves_ == method; }
-  bool mapServes() const { return serves(OcclusionMethod::cpu_map); }
   /// Returns the occlusion resolution of the last frame that had a method.
   OcclusionResolution resolution() const { return resolution_; }
   /// Returns whether the eye is over the ground and above it, so that no underside can be seen.
   bool eyeIsAboveGround() const { return refusal_.empty(); }
   /// Returns the horizon that shaped the visible set of the last frame, or null.
   const Horizon* horizon() const { return hidden_.empty() ? nullptr : &memory_.horizon(); }
-  /// Returns the processor's map as an image, or else the horizon; empty if neither shaped the visible set.
+  /// Returns the horizon as an image; empty if none shaped the visible set.
   DistanceImage picture() const;
 
  private:
-  std::optional<OcclusionMethod> resolve(const FrameRequest& request, bool gpuDrawsMaps);
   std::optional<OcclusionMethod> choose(const FrameRequest& request);
-  bool mapHidLittleNear() const;
+  void findHorizon(const FrameRequest& request);
 
   /// Everything that the visible set depends on.
   struct VisibleKey {
@@ -93,13 +87,6 @@ class OcclusionStage {
     std::uint64_t horizon = 0;   ///< HorizonMemory::number; 0 without a horizon
     std::uint64_t surfaces = 0;  ///< made since the start
     friend bool operator==(const VisibleKey&, const VisibleKey&) = default;
-  };
-  /// The view in which a map hid next to nothing.
-  struct Barren {
-    Vec3 eye, forward;
-    std::uint64_t rule = 0;
-    OcclusionResolution resolution;
-    OcclusionMethod method;
   };
 
   OcclusionGround& ground_;
@@ -119,9 +106,7 @@ class OcclusionStage {
   std::string refusal_;  ///< why nothing may be hidden from the eye
   std::optional<OcclusionMethod> serves_;
   std::span<const std::uint8_t> hidden_, hiddenBoxes_;
-  bool mapHid_ = false;  ///< the processor's map shaped the visible set
   std::optional<VisibleKey> visibleKey_;
-  std::optional<Barren> barren_;
 };
 
 }  // namespace trimtab::scene

@@ -63,7 +63,7 @@ class SurfaceShare {
 
   void begin(std::size_t most) {
     left_ = most;
-    missesAny_ = missesMany_ = false;
+    missesMany_ = false;
   }
   /// Makes the surfaces that `nodes` miss, nearest first, and returns how many still miss one.
   template <class Misses, class Make>
@@ -77,20 +77,17 @@ class SurfaceShare {
     for (std::size_t k = 0; k < now; ++k) make(nodes[wanted_[k].second]);
     left_ -= now;
     made_ += now;
-    missesAny_ = missesAny_ || later > 0;
     missesMany_ = missesMany_ || isMany(later, nodes.size());
     return later;
   }
   /// Reports whether so many surfaces are missing that little is known of what the ground hides.
   static bool isMany(std::size_t missing, std::size_t of) { return missing * 8 > of; }
-  // After any makeNearest of this frame.
-  bool missesAny() const { return missesAny_; }
-  bool missesMany() const { return missesMany_; }
-  std::uint64_t made() const { return made_; }  ///< since the start
+  bool missesMany() const { return missesMany_; }  ///< after any makeNearest of this frame
+  std::uint64_t made() const { return made_; }     ///< since the start
 
  private:
   std::size_t left_ = 0;
-  bool missesAny_ = false, missesMany_ = false;
+  bool missesMany_ = false;
   std::uint64_t made_ = 0;
   std::vector<std::pair<double, std::uint32_t>> wanted_;
 };

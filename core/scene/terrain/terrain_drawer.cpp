@@ -38,9 +38,6 @@ bool TerrainDrawer::findVisible(OcclusionStage& stage, const LevelCut& cut, Visi
   const bool anew = !stage.visibleStays(r);
   if (anew) selectVisible(cut, stage.query(r), visible);
   frame_->clock.lap(&FrameCost::select);
-  if (anew)
-    if (const auto flags = stage.hiddenByMap(r, visible); !flags.empty()) removeOccluded(cut, flags, visible);
-  if (stage.mapServes()) frame_->clock.lap(&FrameCost::occlusion);
   return anew;
 }
 

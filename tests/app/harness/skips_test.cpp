@@ -77,14 +77,6 @@ TEST_F(SkipsTest, changeNoPixelWhetherTheirWorkIsDoneOrNot) {
        },
        20},
       {"view that stands", [](FrameRequest&) {}, 0, 0},
-      {"climb high above, depth map of the processor",
-       [](FrameRequest& r) {
-         r.eye.height = r.eye.height + Metres{6000};
-         r.attitude.pitch = Degrees{-50};
-         r.levers.drawn.occlusion = OcclusionResolution{400, 300};
-         r.occlusion = OcclusionMethod::cpu_map;
-       },
-       20, 0},
       {"fog", foggy},
       {"fog, depth map",
        [](FrameRequest& r) {

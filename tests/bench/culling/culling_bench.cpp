@@ -6,7 +6,6 @@
 #include <random>
 #include <vector>
 
-#include "culling_depth.h"
 #include "culling_frames.h"
 #include "culling_horizon.h"
 #include "culling_peers.h"
@@ -260,7 +259,6 @@ int main(int argc, char** argv) {
   if (report.wants("frustum_16m")) frustumRows(report, "16m", 16'000'000);
   if (report.wants("selection")) selectionRows(report);
   if (report.wants("horizon")) horizonRows(report);
-  if (report.wants("map")) depthMapRows(report);
   movingHorizonRows(report);
   if (report.wants("submit")) submitRow(report);
   frameRows(report);

@@ -181,8 +181,6 @@ class Frames {
         return {};
       case OcclusionMethod::depth_map:
         return "_depth_map";
-      case OcclusionMethod::cpu_map:
-        return "_cpu_map";
       case OcclusionMethod::horizon:
         return "_horizon";
     }
@@ -222,8 +220,7 @@ void rowsOf(Report& report, const std::string& name,
   if (name == "sea") return;
   frames.row(report, name, {.feet = 2000, .errorPx = 0.05});
   if (name != "mountains" && name != "everest") return;
-  for (const OcclusionMethod method :
-       {OcclusionMethod::horizon, OcclusionMethod::cpu_map, OcclusionMethod::depth_map})
+  for (const OcclusionMethod method : {OcclusionMethod::horizon, OcclusionMethod::depth_map})
     frames.row(report, name, {.feet = 2000, .method = method});
 }
 

@@ -39,7 +39,7 @@ TEST_P(DepthPyramidOf, hidesNoBoxWithAPointThatCouldBeSeen) {
             y > height * (0.6 + 0.2 * std::sin(x * 40.0 / width + map)) || unit(random) < 0.0005
                 ? 0.0f
                 : static_cast<float>(1 / (900 + 200 * unit(random)));
-    pyramid.build(depths, width, height);
+    pyramid.build(depths, width, height, width, height);
     for (int i = 0; i < 4000; ++i) {
       const double y = 600 + 4000 * unit(random);
       const Box b = boxAt(y * (1.3 * unit(random) - 0.65), y, y * (0.7 * unit(random) - 0.35),
@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, DepthPyramidOf,
 class DepthPyramidTest : public testing::Test {
  protected:
   /// Everything at 1,000 m.
-  DepthPyramidTest() { pyramid.build(depths, 64, 48); }
+  DepthPyramidTest() { pyramid.build(depths, 64, 48, 64, 48); }
   std::vector<float> depths = std::vector<float>(64 * 48, 1 / 1000.0f);
   ViewShape view;
   EyePose eye{{}, test::axesOf(0)};
@@ -97,7 +97,7 @@ TEST_F(DepthPyramidTest, takesTheFarthestPixelThatATexelTouches) {
     constexpr int kWide = 101, kHigh = 67;
     std::vector<float> picture(std::size_t{kWide} * kHigh);
     for (float& depth : picture) depth = unit(random);
-    pyramid.buildFromPicture(picture, kWide, kHigh, width, height);
+    pyramid.build(picture, kWide, kHigh, width, height);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         float farthest = 1;
@@ -114,7 +114,7 @@ TEST_F(DepthPyramidTest, takesTheFarthestPixelThatATexelTouches) {
 
 TEST_F(DepthPyramidTest, seesThroughASingleHole) {
   depths[24 * 64 + 32] = 0;
-  pyramid.build(depths, 64, 48);
+  pyramid.build(depths, 64, 48, 64, 48);
   EXPECT_FALSE(pyramid.isHidden(boxAt(0, 5000, 0, 2000), eye, view));
   EXPECT_TRUE(pyramid.isHidden(boxAt(-1500, 5000, 0, 100), eye, view));
 }
@@ -125,7 +125,7 @@ TEST_F(DepthPyramidTest, hidesNothingByWhatIsNotANumber) {
   EXPECT_FALSE(pyramid.isHidden(behind, eye, view));
   eye = {{}, test::axesOf(0)};
   std::fill(depths.begin(), depths.end(), kNanF);
-  pyramid.build(depths, 64, 48);
+  pyramid.build(depths, 64, 48, 64, 48);
   EXPECT_FALSE(pyramid.isHidden(behind, eye, view));
   EXPECT_FALSE(DepthPyramid{}.isHidden(behind, eye, view)) << "no map";
 }

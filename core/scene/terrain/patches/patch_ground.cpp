@@ -77,7 +77,6 @@ void PatchGround::setTerrain(std::shared_ptr<const terrain::Database> database) 
   normalsRise_.assign(patches, 0);
   surfaces_.reset(patches);
   lids_.reset(patches);
-  map_.setTerrain(database);
   const auto objects = database ? database->objects() : nullptr;
   setObjects(objects ? &objects->index : nullptr);
   const std::size_t variants = any ? database->patches()->index().variants() : 1;

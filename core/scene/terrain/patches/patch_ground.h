@@ -10,7 +10,6 @@
 #include "core/scene/surface/surfaces_in_use.h"
 #include "core/scene/terrain/box_lids.h"
 #include "patch_culling.h"
-#include "patch_map.h"
 #include "trimtab/scene/data_extent.h"
 
 namespace trimtab::scene {
@@ -36,12 +35,6 @@ class PatchGround final : public OcclusionGround {
     lids_.forgetOthers(cut());
   }
   bool isGraph() override;
-  std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
-                                            const ViewShape& view, OcclusionResolution size,
-                                            double loweringScale) override {
-    return map_.hidden(patches_, cutNumber().cut, visible, eye, {view, size, loweringScale}, share());
-  }
-  DistanceImage mapPicture() const override { return map_.picture(); }
 
  private:
   struct Surface {
@@ -61,7 +54,6 @@ class PatchGround final : public OcclusionGround {
   bool normalsRise(std::uint32_t node);
 
   const PatchCulling& patches_;
-  PatchMapCulling map_;
   DataExtent extent_;
   VariantTable<float> surfaceErrorM_;                 ///< what SurfaceTree reads
   std::uint32_t marginColumns_ = 0, marginRows_ = 0;  ///< posts beside a patch that `inside` needs

@@ -56,7 +56,7 @@ void TreeDrawer::readMap() {
   depths_.resize(static_cast<std::size_t>(v.widthPx) * static_cast<std::size_t>(v.heightPx));
   // The processor reduces it: on a software rasteriser, a shader costs several times as much.
   glReadPixels(0, 0, v.widthPx, v.heightPx, GL_DEPTH_COMPONENT, GL_FLOAT, depths_.data());
-  pyramid_.buildFromPicture(depths_, v.widthPx, v.heightPx, map_->widthPx, map_->heightPx);
+  pyramid_.build(depths_, v.widthPx, v.heightPx, map_->widthPx, map_->heightPx);
   culling_.removeHidden(pyramid_);
 }
 

@@ -32,7 +32,6 @@ void makeRelief(const terrain::TileMesh& mesh, TileRelief& relief) {
 void TileGround::setDatabase(std::shared_ptr<const terrain::Database> database) {
   database_ = std::move(database);
   conditions_.setDatabase(database_);
-  map_.setDatabase(database_);
   const auto objects = database_ ? database_->objects() : nullptr;
   setObjects(objects ? &objects->index : nullptr);
   relief_.reset(database_ ? database_->index().size() : 0);

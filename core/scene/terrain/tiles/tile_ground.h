@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/occlusion/map_culling.h"
 #include "core/scene/occlusion/occlusion_conditions.h"
 #include "core/scene/occlusion/occlusion_ground.h"
 #include "core/scene/surface/surfaces_in_use.h"
@@ -35,19 +34,12 @@ class TileGround final : public OcclusionGround {
     relief_.forgetOthers(*cut_);
     lids_.forgetOthers(*cut_);
   }
-  std::span<const std::uint8_t> hiddenByMap(std::span<const TileDraw> visible, const EyePose& eye,
-                                            const ViewShape& view, OcclusionResolution size,
-                                            double loweringScale) override {
-    return map_.hidden(*cut_, visible, eye, {view, size, loweringScale}, conditions_, share());
-  }
-  DistanceImage mapPicture() const override { return map_.picture(); }
 
   const OcclusionConditions& conditions() const { return conditions_; }
 
  private:
   std::shared_ptr<const terrain::Database> database_;
   OcclusionConditions conditions_;
-  MapCulling map_;
   const LevelCut* cut_ = nullptr;
   const CutNumber* number_ = nullptr;
   std::vector<std::uint8_t> upright_;               ///< per node: no place there has two heights

@@ -15,8 +15,7 @@ TEST_F(CullingDefects, areFoundByWhoOwnsThePixels) {
   constexpr OcclusionResolution kCoarse{8, 6};
   std::vector<View> views;
   for (const auto& r : anyViews(48, 1)) views.push_back(truthOf(r, false));
-  for (const OcclusionMethod method :
-       {OcclusionMethod::depth_map, OcclusionMethod::cpu_map, OcclusionMethod::horizon})
+  for (const OcclusionMethod method : {OcclusionMethod::depth_map, OcclusionMethod::horizon})
     for (const double lowering : {0.0, 1.0}) {
       plant(renderer, {.loweringScale = lowering});
       Tally tally;

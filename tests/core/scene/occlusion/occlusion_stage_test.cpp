@@ -18,7 +18,7 @@ namespace trimtab {
 namespace {
 
 constexpr std::array kMethods{OcclusionMethod::automatic, OcclusionMethod::depth_map,
-                              OcclusionMethod::cpu_map, OcclusionMethod::horizon};
+                              OcclusionMethod::horizon};
 
 std::shared_ptr<const terrain::Database> patchedMountains() {
   static const auto terrain = [] {
@@ -95,41 +95,35 @@ TEST_F(OcclusionStage, hidesNothingFromUnderTheGroundAndSaysSo) {
 TEST_F(OcclusionStage, keepsTheVisibleSetWhileNothingInItCanChange) {
   for (const bool patches : {false, true}) {
     use(patches ? patchedMountains() : test::syntheticMountains());
-    for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::horizon}) {
-      auto r = low(40, method);
-      FrameResult first, second, third;
-      const auto drawn = picture(r, &first);
-      EXPECT_EQ(picture(r, &second), drawn);
-      EXPECT_EQ(second.counters.visibleSelected, first.counters.visibleSelected);
-      EXPECT_EQ(second.counters.mapsDrawnByCpu, first.counters.mapsDrawnByCpu) << "nor is a map drawn";
-      EXPECT_EQ(second.visible.occluded, first.visible.occluded);
-      r.skips.sameVisible = false;
-      EXPECT_EQ(picture(r, &third), drawn);
-      EXPECT_EQ(third.counters.visibleSelected, second.counters.visibleSelected + 1);
-      r.skips.sameVisible = true;
-      // Whatever it depends on.
-      const auto changes = [&](const char* what, auto&& change) {
-        auto changed = r;
-        FrameResult before, after;
-        picture(r, &before);
-        change(changed);
-        EXPECT_EQ(lost(changed, &after), 0u) << what;
-        EXPECT_GT(after.counters.visibleSelected, before.counters.visibleSelected) << what;
-      };
-      changes("a turn", [](auto& c) { c.attitude.heading = Degrees{41}; });
-      changes("a roll", [](auto& c) { c.attitude.roll = Degrees{1}; });
-      changes("a step", [](auto& c) { c.eye.height = c.eye.height + Metres{0.5}; });
-      changes("a zoom", [](auto& c) { c.view.right *= 0.9; });
-      changes("other levels", [](auto& c) { c.levers.drawn.errorPx = 6; });
-      changes("another case", [](auto& c) { c.cullingCase = CullingCase::view_frustum; });
-      changes("another band", [](auto& c) { c.levers.drawn.occlusion = OcclusionResolution{64, 48}; });
-      changes("scheme frustum", [](auto& c) { c.levers.drawn.occlusion.reset(); });
-      changes("no back faces", [](auto& c) { c.backFaces = false; });
-      changes("another way", [method](auto& c) {
-        c.occlusion =
-            method == OcclusionMethod::horizon ? OcclusionMethod::cpu_map : OcclusionMethod::horizon;
-      });
-    }
+    auto r = low(40, OcclusionMethod::horizon);
+    FrameResult first, second, third;
+    const auto drawn = picture(r, &first);
+    EXPECT_EQ(picture(r, &second), drawn);
+    EXPECT_EQ(second.counters.visibleSelected, first.counters.visibleSelected);
+    EXPECT_EQ(second.visible.occluded, first.visible.occluded);
+    r.skips.sameVisible = false;
+    EXPECT_EQ(picture(r, &third), drawn);
+    EXPECT_EQ(third.counters.visibleSelected, second.counters.visibleSelected + 1);
+    r.skips.sameVisible = true;
+    // Whatever it depends on.
+    const auto changes = [&](const char* what, auto&& change) {
+      auto changed = r;
+      FrameResult before, after;
+      picture(r, &before);
+      change(changed);
+      EXPECT_EQ(lost(changed, &after), 0u) << what;
+      EXPECT_GT(after.counters.visibleSelected, before.counters.visibleSelected) << what;
+    };
+    changes("a turn", [](auto& c) { c.attitude.heading = Degrees{41}; });
+    changes("a roll", [](auto& c) { c.attitude.roll = Degrees{1}; });
+    changes("a step", [](auto& c) { c.eye.height = c.eye.height + Metres{0.5}; });
+    changes("a zoom", [](auto& c) { c.view.right *= 0.9; });
+    changes("other levels", [](auto& c) { c.levers.drawn.errorPx = 6; });
+    changes("another case", [](auto& c) { c.cullingCase = CullingCase::view_frustum; });
+    changes("another band", [](auto& c) { c.levers.drawn.occlusion = OcclusionResolution{64, 48}; });
+    changes("scheme frustum", [](auto& c) { c.levers.drawn.occlusion.reset(); });
+    changes("no back faces", [](auto& c) { c.backFaces = false; });
+    if (!patches) changes("another way", [](auto& c) { c.occlusion = OcclusionMethod::depth_map; });
   }
 }
 
@@ -157,69 +151,35 @@ TEST_F(OcclusionStage, looksForNothingInSchemeFrustumUnlessAskedTo) {
   }
 }
 
-TEST_F(OcclusionStage, drawsNoMapNearWhereOneHidNextToNothing) {
-  use(test::syntheticMountains());
-  auto r = low(40, OcclusionMethod::cpu_map);
-  r.eye = over(0.5, 0.5, 4000);
-  r.attitude.pitch = Degrees{-40};
-  FrameResult first, second, third;
-  picture(r, &first);
-  ASSERT_LT(first.visible.occluded * 50, first.visible.tiles.size()) << "no place for this test";
-  r.eye.height = r.eye.height + Metres{5};
-  const auto drawn = picture(r, &second);
-  EXPECT_EQ(second.counters.mapsDrawnByCpu, first.counters.mapsDrawnByCpu);
-  EXPECT_EQ(second.counters.mapsLeftOut, first.counters.mapsLeftOut + 1);
-  EXPECT_EQ(second.counters.occlusionsLeftOut, first.counters.occlusionsLeftOut)
-      << "the method is worth its cost";
-  EXPECT_EQ(first.depthMap, r.levers.drawn.occlusion);
-  EXPECT_EQ(second.occlusion, OcclusionMethod::cpu_map);
-  for (int i = 0; i < 2; ++i) {
-    EXPECT_FALSE(second.depthMap) << "none had a part in what is drawn";
+TEST_F(OcclusionStage, tellsOnlyOfAHorizonOfThisPicture) {
+  for (const bool patches : {false, true}) {
+    use(patches ? patchedMountains() : test::syntheticMountains());
+    const auto tells = [&](const FrameRequest& r, bool ofHorizon, const char* what) {
+      FrameResult result;
+      picture(r, &result);
+      EXPECT_EQ(result.horizon, ofHorizon) << what;
+      EXPECT_EQ(renderer.readHorizon(8).size(), ofHorizon ? 8u : 0u) << what;
+      EXPECT_FALSE(result.depthMap.has_value()) << what;
+      EXPECT_EQ(renderer.readDepthMap().pixels.empty(), !ofHorizon) << what;
+    };
+    auto r = low(40, OcclusionMethod::horizon);
+    r.skips.littleHidden = false;
+    tells(r, true, "low");
+    tells(r, true, "a view that stands");
+    auto sky = r;
+    sky.eye = over(0.5, 0.5, 6000);
+    sky.attitude.pitch = Degrees{80};
+    tells(sky, true, "nothing but sky");
+    tells(r, true, "low again");
+    auto under = r;
+    under.eye = over(0.5, 0.5, -40);
+    tells(under, false, "under the ground");
+    tells(r, true, "out of it");
+    renderer.setTerrain(database);
+    EXPECT_TRUE(renderer.readHorizon(8).empty());
     EXPECT_TRUE(renderer.readDepthMap().pixels.empty());
-    picture(r, &second);  // a view that stands
+    tells(sky, true, "the terrain anew");
   }
-  r.skips.littleHidden = r.skips.sameVisible = false;
-  EXPECT_EQ(picture(r, &third), drawn);
-  EXPECT_EQ(third.counters.mapsDrawnByCpu, second.counters.mapsDrawnByCpu + 1);
-  r.skips.littleHidden = true;
-  r.attitude.heading = Degrees{60};
-  EXPECT_EQ(lost(r, &second), 0u);
-  EXPECT_EQ(second.counters.mapsDrawnByCpu, third.counters.mapsDrawnByCpu + 1)
-      << "a turn ends what was believed";
-}
-
-TEST_F(OcclusionStage, tellsOnlyOfMapsAndHorizonsOfThisPicture) {
-  for (const bool patches : {false, true})
-    for (const OcclusionMethod method : {OcclusionMethod::cpu_map, OcclusionMethod::horizon}) {
-      use(patches ? patchedMountains() : test::syntheticMountains());
-      const bool horizon = method != OcclusionMethod::cpu_map, map = method != OcclusionMethod::horizon;
-      const auto tells = [&](const FrameRequest& r, bool ofHorizon, bool ofMap, const char* what) {
-        FrameResult result;
-        picture(r, &result);
-        EXPECT_EQ(result.horizon, ofHorizon) << what;
-        EXPECT_EQ(renderer.readHorizon(8).size(), ofHorizon ? 8u : 0u) << what;
-        EXPECT_EQ(result.depthMap.has_value(), ofMap) << what;
-        EXPECT_EQ(renderer.readDepthMap().pixels.empty(), !ofHorizon && !ofMap) << what;
-      };
-      auto r = low(40, method);
-      r.skips.littleHidden = false;
-      tells(r, horizon, map, "low");
-      tells(r, horizon, map, "a view that stands");
-      auto sky = r;
-      sky.eye = over(0.5, 0.5, 6000);
-      sky.attitude.pitch = Degrees{80};
-      tells(sky, horizon, false, "nothing but sky");
-      tells(sky, horizon, false, "nothing but sky, again");
-      tells(r, horizon, map, "low again");
-      auto under = r;
-      under.eye = over(0.5, 0.5, -40);
-      tells(under, false, false, "under the ground");
-      tells(r, horizon, map, "out of it");
-      renderer.setTerrain(database);
-      EXPECT_TRUE(renderer.readHorizon(8).empty());
-      EXPECT_TRUE(renderer.readDepthMap().pixels.empty());
-      tells(sky, horizon, false, "the terrain anew");
-    }
 }
 
 /// Triangles that stand nearly upright: the earth's curvature may make them hang over.

@@ -7,8 +7,8 @@
 #include <limits>
 #include <tuple>
 
-#include "core/scene/passes/weather_precipitation.h"
 #include "core/scene/passes/scene_view.h"
+#include "core/scene/passes/weather_precipitation.h"
 #include "trimtab/units/not_finite.h"
 
 namespace trimtab::scene {

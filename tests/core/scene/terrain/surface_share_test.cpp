@@ -18,11 +18,11 @@ namespace {
 /// The tiles of one eye in a valley, and what looks for those that are hidden from it.
 class Looking {
  public:
-  Looking(OcclusionMethod method, bool atOnce)
+  explicit Looking(bool atOnce)
       : database_(test::syntheticMountains()), stage_(ground_), index_(database_->index()) {
     ground_.setDatabase(database_);
     ground_.setCut(cut_, number_);
-    request_.occlusion = method;
+    request_.occlusion = OcclusionMethod::horizon;
     request_.waitForPages = atOnce;
     request_.skips.littleHidden = false;
     request_.levers.drawn.occlusion = OcclusionResolution{400, 300};
@@ -48,14 +48,7 @@ class Looking {
     }
     flags_.assign(cut_.tiles.size(), 0);
     std::copy(stage_.hidden().begin(), stage_.hidden().end(), flags_.begin());
-    VisibleSet visible;
-    selectVisible(cut_, {.eye = eye_, .view = request_.view, .farM = 1e30, .hidden = stage_.hidden()},
-                  visible);
-    const auto byMap = stage_.hiddenByMap(request_, visible);
     counters_ += stage_.counters();
-    for (std::size_t i = 0; i < byMap.size(); ++i)
-      for (std::size_t k = 0; k < cut_.tiles.size(); ++k)
-        if (byMap[i] == 1 && cut_.tiles[k].node == visible.tiles[i].node) flags_[k] = 1;
     made_ = ground_.share().made() - made;
     return flags_;
   }
@@ -79,28 +72,26 @@ class Looking {
 };
 
 TEST(SurfaceShare, aFrameMakesFewAndInTheEndAsMuchIsHidden) {
-  for (const OcclusionMethod method : {OcclusionMethod::horizon, OcclusionMethod::cpu_map}) {
-    Looking atOnce(method, true), shared(method, false);
-    const std::vector<std::uint8_t> all = atOnce.frame();
-    const auto most = std::count(all.begin(), all.end(), 1);
-    ASSERT_GT(most, 0);
-    EXPECT_GT(atOnce.made(), 4 * scene::SurfaceShare::kAFrame);
-    const auto frames = static_cast<int>(2 * shared.tiles() / scene::SurfaceShare::kAFrame) + 4;
-    std::ptrdiff_t hidden = 0;
-    for (int i = 0; i < frames; ++i) {
-      const std::vector<std::uint8_t>& some = shared.frame();
-      EXPECT_LE(shared.made(), scene::SurfaceShare::kAFrame);
-      for (std::size_t k = 0; k < some.size(); ++k) EXPECT_LE(some[k], all[k]) << "frame " << i;
-      hidden = std::count(some.begin(), some.end(), 1);
-    }
-    EXPECT_EQ(hidden, most) << static_cast<int>(method);
-    EXPECT_LT(shared.horizons(), 10u);
-    // At rest with all that it needs: nothing is done any more.
-    const std::uint64_t selections = shared.selections();
-    shared.frame();
-    EXPECT_EQ(shared.made(), 0u);
-    EXPECT_EQ(shared.selections(), selections);
+  Looking atOnce(true), shared(false);
+  const std::vector<std::uint8_t> all = atOnce.frame();
+  const auto most = std::count(all.begin(), all.end(), 1);
+  ASSERT_GT(most, 0);
+  EXPECT_GT(atOnce.made(), 4 * scene::SurfaceShare::kAFrame);
+  const auto frames = static_cast<int>(2 * shared.tiles() / scene::SurfaceShare::kAFrame) + 4;
+  std::ptrdiff_t hidden = 0;
+  for (int i = 0; i < frames; ++i) {
+    const std::vector<std::uint8_t>& some = shared.frame();
+    EXPECT_LE(shared.made(), scene::SurfaceShare::kAFrame);
+    for (std::size_t k = 0; k < some.size(); ++k) EXPECT_LE(some[k], all[k]) << "frame " << i;
+    hidden = std::count(some.begin(), some.end(), 1);
   }
+  EXPECT_EQ(hidden, most);
+  EXPECT_LT(shared.horizons(), 10u);
+  // At rest with all that it needs: nothing is done any more.
+  const std::uint64_t selections = shared.selections();
+  shared.frame();
+  EXPECT_EQ(shared.made(), 0u);
+  EXPECT_EQ(shared.selections(), selections);
 }
 
 class SharedScene : public test::SceneTest {};
@@ -109,27 +100,25 @@ TEST_F(SharedScene, drawsWhateverIsVisibleWhileSurfacesAreMade) {
   for (const bool patches : {false, true}) {
     const std::shared_ptr<const terrain::Database> tiles = test::syntheticMountains();
     use(patches ? test::patchedMountains(false) : tiles);
-    for (const OcclusionMethod method : {OcclusionMethod::cpu_map}) {
-      std::size_t hidden = 0;
-      for (int frame = 0; frame < 40; ++frame) {
-        if (frame == 0) renderer.setTerrain(database);  // forgets its surfaces
-        auto r = request(over(0.45 + 1e-4 * frame, 0.5, 90), {Degrees{9.0 * frame}, Degrees{-3}, Degrees{0}});
-        r.terrain.form = patches ? TerrainForm::patches : TerrainForm::tiles;
-        r.levers.drawn.occlusion = OcclusionResolution{400, 300};
-        r.occlusion = method;
-        r.levers.drawn.errorPx = 0.5;
-        FrameResult result;
-        picture(r, &result);
-        std::set<std::uint32_t> drawn;
-        for (const TileDraw& tile : result.visible.tiles) drawn.insert(tile.node);
-        std::size_t missing = 0;
-        for (const std::uint32_t node : renderer.readNodes(true))
-          missing += node != scene::Renderer::kNoNode && !drawn.count(node);
-        EXPECT_EQ(missing, 0u) << patches << ' ' << static_cast<int>(method) << ' ' << frame;
-        hidden += result.visible.occluded;
-      }
-      EXPECT_GT(hidden, 0u) << patches << ' ' << static_cast<int>(method);
+    std::size_t hidden = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+      if (frame == 0) renderer.setTerrain(database);  // forgets its surfaces
+      auto r = request(over(0.45 + 1e-4 * frame, 0.5, 90), {Degrees{9.0 * frame}, Degrees{-3}, Degrees{0}});
+      r.terrain.form = patches ? TerrainForm::patches : TerrainForm::tiles;
+      r.levers.drawn.occlusion = OcclusionResolution{400, 300};
+      r.occlusion = OcclusionMethod::horizon;
+      r.levers.drawn.errorPx = 0.5;
+      FrameResult result;
+      picture(r, &result);
+      std::set<std::uint32_t> drawn;
+      for (const TileDraw& tile : result.visible.tiles) drawn.insert(tile.node);
+      std::size_t missing = 0;
+      for (const std::uint32_t node : renderer.readNodes(true))
+        missing += node != scene::Renderer::kNoNode && !drawn.count(node);
+      EXPECT_EQ(missing, 0u) << patches << ' ' << frame;
+      hidden += result.visible.occluded;
     }
+    EXPECT_GT(hidden, 0u) << patches;
   }
 }
 

@@ -15,24 +15,17 @@ namespace trimtab {
 /// a pixel's width around, shows a depth nearer than the box's nearest point.
 class DepthPyramid {
  public:
-  /// Builds the levels from depths whose row 0 is at the bottom, with `stride` entries from row to row (0
-  /// means width). A depth that is not a number counts as uncovered.
-  void build(std::span<const float> depths, int width, int height, int stride = 0);
-  /// Builds the map of an image of any size: each texel gets the farthest pixel that it touches.
-  void buildFromPicture(std::span<const float> picture, int pictureWidth, int pictureHeight, int width,
-                        int height);
+  /// Builds the map of an image of any size, whose row 0 is at the bottom: each texel gets the farthest pixel
+  /// that it touches.
+  void build(std::span<const float> picture, int pictureWidth, int pictureHeight, int width, int height);
 
   /// Returns true only if the box is proven hidden; false for a box that reaches the near plane. Margins
   /// cover float rounding in the image. `view` has the image's size, which need not be a multiple of the
   /// map's.
   bool isHidden(const Box& box, const EyePose& eye, const ViewShape& view) const;
-  /// Returns true if every texel from (x0, y0) to (x1, y1), both inside the map, is nearer than `limit`,
-  /// which is near / depth. Looks at coarse levels first and stops as soon as the answer is known.
-  bool covers(int x0, int y0, int x1, int y1, float limit) const;
-
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Returns the finest level, as it was given to `build`.
+  /// Returns the finest level.
   std::span<const float> depths() const;
 
  private:
@@ -42,6 +35,9 @@ class DepthPyramid {
   };
   void resize(int width, int height);
   void reduce();
+  /// Returns true if every texel from (x0, y0) to (x1, y1), both inside the map, is nearer than `limit`,
+  /// which is near / depth. Looks at coarse levels first and stops as soon as the answer is known.
+  bool covers(int x0, int y0, int x1, int y1, float limit) const;
   bool coversWithin(std::size_t level, int x0, int y0, int x1, int y1, float limit) const;
 
   int width_ = 0, height_ = 0;

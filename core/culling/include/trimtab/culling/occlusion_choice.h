@@ -69,7 +69,7 @@ class OcclusionChoice {
   std::uint64_t trials() const { return trials_; }
 
  private:
-  static constexpr std::size_t kArms = 4;  ///< arm 0 is none; the others are the methods but `automatic`
+  static constexpr std::size_t kArms = 3;  ///< arm 0 is none; the others are the methods but `automatic`
   /// What is known of a method.
   struct Arm {
     bool known = false, canServe = false;

@@ -25,13 +25,12 @@ struct FrameCounters {
                                          ///< ancestors, or too many strokes
   std::uint64_t cutsSelected = 0, visibleSelected = 0, tilesBuilt = 0;
   std::uint64_t tilesBuiltAhead = 0;  ///< between images (Renderer::buildAhead), and not in tilesBuilt
-  std::uint64_t depthMapsDrawn = 0;   ///< by the GPU
-  std::uint64_t mapsDrawnByCpu = 0;   ///< depth maps that the processor drew
-  std::uint64_t mapsLeftOut = 0;      ///< of these not drawn, because near here one hid next to nothing
+  std::uint64_t depthMapsDrawn = 0;
   std::uint64_t horizonsBuilt = 0;
-  std::uint64_t horizonsMoved = 0;      ///< moved along with the eye instead of being built
-  std::uint64_t horizonsLeftOut = 0;    ///< not built, because near here one hid next to nothing
-  std::uint64_t occlusionsLeftOut = 0;  ///< frames without occlusion, because no method was worth its cost
+  std::uint64_t horizonsMoved = 0;    ///< moved along with the eye instead of being built
+  std::uint64_t horizonsLeftOut = 0;  ///< not built, because near here one hid next to nothing
+  std::uint64_t occlusionsLeftOut =
+      0;  ///< frames without occlusion, because the horizon was not worth its cost
 
   FrameCounters& operator+=(const FrameCounters& other);
   friend bool operator==(const FrameCounters&, const FrameCounters&) = default;
@@ -42,8 +41,8 @@ struct OcclusionResult {
   std::optional<OcclusionResolution>
       depthMap;          ///< size of the depth map that shaped `visible`; unset if none did
   bool horizon = false;  ///< a horizon shaped `visible`
-  /// The method in use, never `automatic`; unset if nothing looks for hidden ground. The method may still
-  /// leave out its horizon or map, because near here it hid next to nothing.
+  /// The method in use, never `automatic`; unset if nothing looks for hidden ground. The horizon may still be
+  /// left out, because near here it hid next to nothing.
   std::optional<OcclusionMethod> occlusion;
   /// Sentences that say why occlusion was not used as the request asked, and what is used instead; else
   /// empty.

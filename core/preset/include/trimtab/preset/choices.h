@@ -42,10 +42,9 @@ struct ChoicesOf<CullingCase> {
 };
 template <>
 struct ChoicesOf<OcclusionMethod> {
-  static constexpr ChoiceOption options[] = {{"auto", "Automatic (fastest here)"},
-                                             {"depth_map", "Depth map (published)"},
-                                             {"cpu_map", "Depth map by the processor"},
-                                             {"horizon", "Horizon"}};
+  static constexpr ChoiceOption options[] = {{"auto", "Automatic (horizon where it pays)"},
+                                             {"horizon", "Horizon"},
+                                             {"depth_map", "Depth map (published)"}};
 };
 template <>
 struct ChoicesOf<ViewSource> {

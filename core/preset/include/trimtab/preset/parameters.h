@@ -20,7 +20,7 @@ enum class Combination { sum, twice_minimum };
 /// The three culling cases of documents A and B.
 enum class CullingCase { none, view_frustum, proposed };
 /// What looks for hidden ground if the scheme is dynamic.
-enum class OcclusionMethod { automatic, depth_map, cpu_map, horizon };
+enum class OcclusionMethod { automatic, horizon, depth_map };
 /// Where the field of view and the near plane come from.
 enum class ViewSource { preset, host };
 enum class RenderSize { fit, fixed };

@@ -31,8 +31,8 @@ struct Provenance {
 enum class ExportFormat { json, xml, ini };
 
 /// Returns what an export should report of parameters whose effect depends on the machine, as one sentence;
-/// empty if there is nothing. `culling.occlusion` = auto is one: which method serves is measured by each
-/// machine.
+/// empty if there is nothing. `culling.occlusion` = auto is one: each machine measures whether the horizon is
+/// worth its cost.
 std::string machineNote(const TuningParameters& parameters);
 
 /// Returns the names of the presets that ship, which are compiled in: "default", "as-published",
