@@ -1,5 +1,6 @@
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/select.h"
+#include "trimtab/culling/tree_walk.h"
 
 namespace trimtab {
 namespace {
@@ -24,8 +25,7 @@ void splitByError(const TerrainIndex& index, Vec3 eye, const CutRule& rule, Leve
     if (!rule.isTooCoarse(index.errorM[node], distanceSquared(index.bounds[node], eye), limit)) continue;
     split(index, node, cut);
     if (!cut.split[node]) continue;
-    for (const std::uint32_t child : index.children[node])
-      if (child != TerrainIndex::kNone) cut.stack.push_back(child);
+    forEachChild(index, node, [&](std::uint32_t child) { cut.stack.push_back(child); });
   }
 }
 
@@ -51,16 +51,6 @@ std::uint8_t coarserSides(const TerrainIndex& index, const LevelCut& cut, std::u
   return bits;
 }
 
-void pushRoots(const TerrainIndex& index, std::vector<std::uint32_t>& stack) {
-  stack.clear();
-  // Nodes are ordered by level, so the roots are last.
-  for (std::uint32_t node = static_cast<std::uint32_t>(index.size()); node-- > 0;)
-    if (index.parent[node] == TerrainIndex::kNone)
-      stack.push_back(node);
-    else
-      break;
-}
-
 }  // namespace
 
 void selectLevels(const TerrainIndex& index, Vec3 eye, const CutRule& rule, LevelCut& cut) {
@@ -69,21 +59,18 @@ void selectLevels(const TerrainIndex& index, Vec3 eye, const CutRule& rule, Leve
   cut.splitNodes.resize(index.levels.size());
   for (auto& nodes : cut.splitNodes) nodes.clear();
 
-  pushRoots(index, cut.stack);
+  cut.stack.clear();
+  const auto push = [&](std::uint32_t root) { cut.stack.push_back(root); };
+  forEachRoot(index, push);
   splitByError(index, eye, rule, cut);
   restrictNeighbours(index, cut);
 
-  pushRoots(index, cut.stack);
-  while (!cut.stack.empty()) {
-    const std::uint32_t node = cut.stack.back();
-    cut.stack.pop_back();
-    if (!cut.split[node]) {
-      cut.tiles.push_back({node, BorderMask(coarserSides(index, cut, node))});
-      continue;
-    }
-    for (std::size_t i = 4; i-- > 0;)
-      if (index.children[node][i] != TerrainIndex::kNone) cut.stack.push_back(index.children[node][i]);
-  }
+  forEachRoot(index, push);
+  takeCut(
+      index, cut.stack, [&](std::uint32_t node) { return cut.split[node] != 0; },
+      [&](std::uint32_t node) {
+        cut.tiles.push_back({node, BorderMask(coarserSides(index, cut, node))});
+      });
   gather(index, cut);
 }
 

@@ -5,6 +5,7 @@
 
 #include "gather_cut.h"
 #include "trimtab/culling/box_distance.h"
+#include "trimtab/culling/tree_walk.h"
 
 namespace trimtab {
 namespace {
@@ -27,18 +28,18 @@ class Selection {
 
   void run() {
     begin();
-    forEachRoot([&](std::uint32_t patch) { cut_.stack.push_back(patch); });
+    forEachRoot(index_, [&](std::uint32_t patch) { cut_.stack.push_back(patch); });
     while (!cut_.stack.empty()) {
       const std::uint32_t patch = cut_.stack.back();
       cut_.stack.pop_back();
       ask(patch);
     }
-    forEachRoot([&](std::uint32_t patch) {
+    forEachRoot(index_, [&](std::uint32_t patch) {
       wantPage(index_.page[patch], std::numeric_limits<float>::infinity());
       gather(patch);
     });
     for (const std::uint32_t diamond : cut_.splitList)
-      forEachChild(diamond, [&](std::uint32_t child) { wantPage(index_.page[child], cut_.need[diamond]); });
+      forEachChildOf(diamond, [&](std::uint32_t child) { wantPage(index_.page[child], cut_.need[diamond]); });
     for (PageWant& want : cut_.wants)
       want.errorPx = static_cast<float>(std::sqrt(want.errorPx) * rule_.pixelsPerRadian);
   }
@@ -61,16 +62,6 @@ class Selection {
     cut_.stack.clear();
   }
 
-  /// Visits the root patches, which are all in the first pages.
-  template <class Visit>
-  void forEachRoot(const Visit& visit) {
-    for (const PatchIndex::Page& page : index_.pages) {
-      if (page.pair != 0) break;
-      for (std::uint32_t patch = page.firstPatch; patch < page.firstPatch + page.patches; ++patch)
-        if (index_.parent[patch] == kNone) visit(patch);
-    }
-  }
-
   bool tooCoarse(float error, double distance2) const {
     return rule_.isTooCoarse(double{error}, distance2, limit_);
   }
@@ -91,7 +82,7 @@ class Selection {
     if (diamond == kNone || cut_.need[diamond] >= need) return;
     if (cut_.need[diamond] == 0) {
       const std::size_t before = cut_.stack.size();
-      forEachChild(diamond, [&](std::uint32_t child) {
+      forEachChildOf(diamond, [&](std::uint32_t child) {
         cut_.stack.push_back(child);
         if (!isResident(index_.page[child]) && !isLost(index_.page[child])) cut_.missing[diamond] = kOwn;
       });
@@ -103,12 +94,9 @@ class Selection {
   }
 
   template <class Visit>
-  void forEachChild(std::uint32_t diamond, const Visit& visit) const {
-    for (const std::uint32_t patch : index_.diamonds[diamond].patches) {
-      if (patch == kNone) continue;
-      for (const std::uint32_t child : index_.children[patch])
-        if (child != kNone) visit(child);
-    }
+  void forEachChildOf(std::uint32_t diamond, const Visit& visit) const {
+    for (const std::uint32_t patch : index_.diamonds[diamond].patches)
+      if (patch != kNone) forEachChild(index_, patch, visit);
   }
 
   bool isResident(std::uint32_t page) const { return resident_.empty() || resident_[page] != 0; }
@@ -139,21 +127,18 @@ class Selection {
   /// Appends the part of the cut below a root, depth first, so that the order of any two patches is the
   /// index's.
   void gather(std::uint32_t root) {
-    for (cut_.stack.push_back(root); !cut_.stack.empty();) {
-      const std::uint32_t patch = cut_.stack.back();
-      cut_.stack.pop_back();
-      const std::uint32_t diamond = index_.diamond[patch];
-      if (cut_.need[diamond] > 0) {
-        if (!isHeldBack(diamond)) {
-          for (std::size_t i = 2; i-- > 0;)
-            if (index_.children[patch][i] != kNone) cut_.stack.push_back(index_.children[patch][i]);
-          continue;
-        }
-        if (!(cut_.missing[diamond] & kCounted)) ++cut_.heldBack;
-        cut_.missing[diamond] |= kCounted;
-      }
-      cut_.cut.tiles.push_back({.node = patch, .variant = variantOf(patch)});
-    }
+    cut_.stack.push_back(root);
+    takeCut(
+        index_, cut_.stack,
+        [&](std::uint32_t patch) {
+          const std::uint32_t diamond = index_.diamond[patch];
+          if (!(cut_.need[diamond] > 0)) return false;
+          if (!isHeldBack(diamond)) return true;
+          if (!(cut_.missing[diamond] & kCounted)) ++cut_.heldBack;
+          cut_.missing[diamond] |= kCounted;
+          return false;
+        },
+        [&](std::uint32_t patch) { cut_.cut.tiles.push_back({.node = patch, .variant = variantOf(patch)}); });
   }
 
   PatchVariant variantOf(std::uint32_t patch) const {

@@ -4,34 +4,19 @@
 
 #include "gather_cut.h"
 #include "trimtab/culling/box_distance.h"
+#include "trimtab/culling/tree_walk.h"
 
 namespace trimtab {
 namespace {
-
-void pushRoots(const StaticLodIndex& index, std::vector<std::uint32_t>& stack) {
-  stack.assign(index.roots.rbegin(), index.roots.rend());
-}
-
-bool isLeaf(const StaticLodIndex::Node& node) {
-  return node.children[0] == StaticLodIndex::kNone;
-}
 
 /// Walks the trees from the roots; `descend` says whether a node's children are drawn instead of it.
 template <class Descend>
 void walk(const StaticLodIndex& index, LevelCut& cut, const Descend& descend) {
   cut.tiles.clear();
-  pushRoots(index, cut.stack);
-  while (!cut.stack.empty()) {
-    const std::uint32_t node = cut.stack.back();
-    cut.stack.pop_back();
-    const StaticLodIndex::Node& n = index.nodes[node];
-    if (isLeaf(n) || !descend(node)) {
-      cut.tiles.push_back({node});
-      continue;
-    }
-    cut.stack.push_back(n.children[1]);
-    cut.stack.push_back(n.children[0]);
-  }
+  cut.stack.assign(index.roots.rbegin(), index.roots.rend());
+  takeCut(
+      index, cut.stack, [&](std::uint32_t node) { return hasChildren(index, node) && descend(node); },
+      [&](std::uint32_t node) { cut.tiles.push_back({node}); });
   gather(index, cut);
 }
 

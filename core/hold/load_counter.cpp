@@ -5,6 +5,7 @@
 
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/culling/frustum.h"
+#include "trimtab/culling/tree_walk.h"
 #include "trimtab/units/sphere.h"
 
 namespace trimtab {
@@ -71,74 +72,50 @@ double ratioOf(const CutRule& rule, double error, double distance2) {
   return spreadSquared(error * error / rule.limit(), rule.spread, rule.spreadFromM) / distance2;
 }
 
-/// Walks a tree from the nodes on the stack. `visit(node, below)` adds what a node draws below step `below`
-/// and returns the first step at which it is drawn itself; `children(node, push)` pushes its children.
-template <class BoundsOf, class Visit, class Children>
-void walk(std::vector<std::uint64_t>& stack, const LoadView& view, const BoundsOf& boundsOf,
-          const Visit& visit, const Children& children) {
+/// Walks the nodes in view that a step below `steps` draws, and their ancestors. `ratio(node, distance2)` is
+/// as Accepted takes it. `draw(node, first, below)` is told that steps `first` to `below` draw a node; none
+/// if `first` is not less.
+template <class Index, class Ratio, class Draw>
+void walk(const Index& index, const LoadView& view, const Accepted& accepted, std::size_t steps,
+          std::vector<std::uint64_t>& stack, const Ratio& ratio, const Draw& draw) {
   const Outside outside(view);
+  stack.clear();
+  forEachRoot(index, [&](std::uint32_t root) { stack.push_back(packed(root, steps)); });
   while (!stack.empty()) {
-    const std::uint32_t node = static_cast<std::uint32_t>(stack.back() >> 8);
+    const auto node = static_cast<std::uint32_t>(stack.back() >> 8);
     const std::size_t below = stack.back() & 0xff;
     stack.pop_back();
-    if (outside(boundsOf(node))) continue;
-    const std::size_t first = std::min(visit(node, below), below);
-    if (first > 0) children(node, [&](std::uint32_t child) { stack.push_back(packed(child, first)); });
+    if (outside(index.bounds[node])) continue;
+    const double distance2 = distanceSquared(index.bounds[node], view.eye.position);
+    const std::size_t first = hasChildren(index, node) ? accepted(ratio(node, distance2)) : 0;
+    draw(node, first, below);
+    const std::size_t drawn = std::min(first, below);
+    if (drawn > 0)
+      forEachChild(index, node, [&](std::uint32_t child) { stack.push_back(packed(child, drawn)); });
   }
 }
 
-/// Walks the tiles in view that a step below `steps` draws, and their ancestors. Steps `first` to `below`
-/// draw a tile; none if `first` is not less.
+/// Walks tiles so.
 template <class Draw>
 void walkTiles(const TerrainIndex& index, const LoadView& view, const CutRule& rule, double askedPx,
                std::size_t steps, std::vector<std::uint64_t>& stack, const Draw& draw) {
-  const Vec3 eye = view.eye.position;
-  const Accepted accepted(askedPx, rule.spread);
-  stack.clear();
-  for (std::uint32_t node = static_cast<std::uint32_t>(index.size()); node-- > 0;)
-    if (index.parent[node] == TerrainIndex::kNone)
-      stack.push_back(packed(node, steps));
-    else
-      break;
-  walk(
-      stack, view, [&](std::uint32_t node) -> const Box& { return index.bounds[node]; },
-      [&](std::uint32_t node, std::size_t below) -> std::size_t {
-        const double ratio = ratioOf(rule, index.errorM[node], distanceSquared(index.bounds[node], eye));
-        const std::size_t first = index.level[node] == 0 ? 0 : accepted(ratio);
-        draw(node, first, below);
-        return first;
-      },
-      [&](std::uint32_t node, const auto& push) {
-        for (const std::uint32_t child : index.children[node])
-          if (child != TerrainIndex::kNone) push(child);
-      });
+  const auto ratio = [&](std::uint32_t node, double distance2) {
+    return ratioOf(rule, index.errorM[node], distance2);
+  };
+  walk(index, view, Accepted(askedPx, rule.spread), steps, stack, ratio, draw);
 }
 
-/// Walks nodes of static trees likewise.
+/// Walks nodes of static trees so.
 template <class Draw>
 void walkTrees(const StaticLodIndex& index, const std::vector<float>& error, const LoadView& view,
                const StaticLodRule& rule, double askedPx, std::size_t steps,
                std::vector<std::uint64_t>& stack, const Draw& draw) {
-  const Vec3 eye = view.eye.position;
-  const Accepted accepted(askedPx, rule.spread);
   const double square = rule.distancePerError * rule.distancePerError;
-  stack.clear();
-  for (const std::uint32_t root : index.roots) stack.push_back(packed(root, steps));
-  walk(
-      stack, view, [&](std::uint32_t node) -> const Box& { return index.bounds[node]; },
-      [&](std::uint32_t node, std::size_t below) -> std::size_t {
-        const double e = error[node];
-        const double ratio = spreadSquared(e * e * square, rule.spread, rule.spreadFromM) /
-                             distanceSquared(index.bounds[node], eye);
-        const bool leaf = index.nodes[node].children[0] == StaticLodIndex::kNone;
-        const std::size_t first = leaf ? 0 : accepted(ratio);
-        draw(node, first, below);
-        return first;
-      },
-      [&](std::uint32_t node, const auto& push) {
-        for (const std::uint32_t child : index.nodes[node].children)
-          if (child != StaticLodIndex::kNone) push(child);
-      });
+  const auto ratio = [&](std::uint32_t node, double distance2) {
+    const double e = error[node];
+    return spreadSquared(e * e * square, rule.spread, rule.spreadFromM) / distance2;
+  };
+  walk(index, view, Accepted(askedPx, rule.spread), steps, stack, ratio, draw);
 }
 
 /// The error that is asked for, where only step 0 counts and no other place is looked at.
@@ -175,25 +152,15 @@ void collectNodes(const TerrainIndex& index, const LoadView& view, const CutRule
 
 TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, const CutRule& rule,
                               double askedPx, std::vector<std::uint64_t>& stack) {
-  const Vec3 eye = view.eye.position;
   const Accepted accepted(askedPx, rule.spread);
   Ladder ladder;
-  stack.clear();
-  for (const PatchIndex::Page& page : index.pages) {
-    if (page.pair != 0) break;
-    for (std::uint32_t patch = page.firstPatch; patch < page.firstPatch + page.patches; ++patch)
-      if (index.parent[patch] == PatchIndex::kNone) stack.push_back(packed(patch, kErrorSteps));
-  }
   walk(
-      stack, view, [&](std::uint32_t patch) -> const Box& { return index.bounds[patch]; },
-      [&](std::uint32_t patch, std::size_t below) -> std::size_t {
-        const double distance2 = distanceSquared(index.bounds[patch], eye);
+      index, view, accepted, kErrorSteps, stack,
+      [&](std::uint32_t patch, double distance2) { return ratioOf(rule, index.errorM[patch][0], distance2); },
+      [&](std::uint32_t patch, std::size_t from, std::size_t below) {
+        const double distance2 = distanceSquared(index.bounds[patch], view.eye.position);
         const std::span<const float> errors = index.errorM[patch];
-        const bool leaf =
-            index.children[patch][0] == PatchIndex::kNone && index.children[patch][1] == PatchIndex::kNone;
-        const std::size_t first = leaf ? 0 : accepted(ratioOf(rule, errors[0], distance2));
         // Each variant serves from the step that accepts it up to the next coarser one.
-        std::size_t from = first;
         for (std::size_t v = 0; v < errors.size() && from < below; ++v) {
           const bool last = v + 1 == errors.size();
           const std::size_t next =
@@ -201,11 +168,6 @@ TriangleLadder countTriangles(const PatchIndex& index, const LoadView& view, con
           ladder.add(from, next, index.triangles[patch][v]);
           from = next;
         }
-        return first;
-      },
-      [&](std::uint32_t patch, const auto& push) {
-        for (const std::uint32_t child : index.children[patch])
-          if (child != PatchIndex::kNone) push(child);
       });
   return ladder.sums();
 }
