@@ -54,7 +54,6 @@ class OwnEntity {
   void restart() { first_.reset(); }
   /// "17:2:5 VIPER1, 17:2:6 VIPER2": those that came and are not the own aircraft.
   std::string others() const;
-  std::size_t otherCount() const { return others_.size(); }
   const std::string& wanted() const { return wanted_; }
 
  private:

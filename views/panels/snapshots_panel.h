@@ -25,7 +25,6 @@ class SnapshotsPanel : public QWidget {
   SnapshotsPanel(Draft& draft, Snapshots& snapshots, QWidget* parent = nullptr);
 
   QToolButton& switchButton(int slot) { return *line(slot).go; }
-  QToolButton& keepButton(int slot) { return *line(slot).keep; }
   QToolButton& pinButton(int slot) { return *line(slot).pin; }
   QLineEdit& nameEdit(int slot) { return *line(slot).name; }
   QString resultText(int slot) const;

@@ -31,7 +31,6 @@ class TimePlot : public ClockPlot {
   /// Chooses whether a few values far above all others are cut off by the axis, and the largest is named; on
   /// from the start.
   void setRobust(bool on);
-  bool isRobust() const { return robust_; }
   /// Shows only frames before this one from now on; all that come if it is unset.
   void hold(std::optional<std::uint64_t> end);
   /// Returns one past the newest frame that may be shown.

@@ -22,7 +22,6 @@ class ChangesDock : public QSplitter {
 
   views::Snapshots& snapshots() { return snapshots_; }
   views::ChangesPanel& changes() { return *changes_; }
-  views::SnapshotsPanel& snapshotsPanel() { return *panel_; }
   void showFrame(const views::LiveFrame& frame) { snapshots_.showFrame(frame); }
   /// Sets whether a person can see it. It cannot find out itself, because Qt calls a dock behind other tabs
   /// visible.
