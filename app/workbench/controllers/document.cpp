@@ -113,11 +113,14 @@ QString Document::title() const {
 }
 
 Result<Done> Document::open(const QString& nameOrFile) {
+  const QString file =
+      isShipped(nameOrFile.toStdString()) ? QString() : QFileInfo(nameOrFile).absoluteFilePath();
+  std::string bytes = file.isEmpty() ? std::string() : readAll(file);
   Result<Preset> loaded = loadPreset(nameOrFile.toStdString());
   if (!loaded) return loaded.findings();
   draft_.load(*loaded);
   dropCopy();
-  become(isShipped(nameOrFile.toStdString()) ? QString() : QFileInfo(nameOrFile).absoluteFilePath());
+  become(file, std::move(bytes));
   return {Done{}, loaded.findings()};
 }
 
@@ -129,7 +132,7 @@ void Document::startFrom(const QString& shipped) {
   fresh.description.clear();
   draft_.load(fresh);
   dropCopy();
-  become({});
+  become({}, {});
 }
 
 Result<Done> Document::openEdits(const QString& nameOrFile, const QString& text, const QString& where,
@@ -161,27 +164,33 @@ Result<Done> Document::save(const QString& file) {
   draft_.describe(saved.name, saved.description);
   draft_.markSaved();
   dropCopy();
-  become(absolute);
+  become(absolute, *text);
   return written;
 }
 
-void Document::become(const QString& file) {
+void Document::become(const QString& file, std::string bytes) {
   if (!watcher_.files().isEmpty()) watcher_.removePaths(watcher_.files());
   file_ = file;
-  bytes_ = file.isEmpty() ? std::string() : readAll(file);
-  if (!file.isEmpty()) watcher_.addPath(file);
+  bytes_ = std::move(bytes);
+  ++becameTimes_;
+  if (!file.isEmpty()) {
+    watcher_.addPath(file);
+    // Another program may have written it after these bytes were read or saved, and before it was watched.
+    lookSoon_.start(kLookAfterMs);
+  }
   emit fileChanged();
 }
 
 void Document::checkDisk() {
   if (file_.isEmpty()) return;
-  disk_ = std::jthread([this, file = file_, before = std::move(disk_)]() mutable {
+  disk_ = std::jthread([this, file = file_, times = becameTimes_, before = std::move(disk_)]() mutable {
     if (before.joinable()) before.join();
     const bool gone = !QFileInfo::exists(file);
     QMetaObject::invokeMethod(
         this,
-        [this, file, gone, now = gone ? std::string() : readAll(file)] {
-          if (file == file_) compareWithDisk(gone, now);
+        [this, times, gone, now = gone ? std::string() : readAll(file)] {
+          // What was read before a save is older than what was saved.
+          if (times == becameTimes_) compareWithDisk(gone, now);
         },
         Qt::QueuedConnection);
   });

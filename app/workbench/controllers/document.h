@@ -5,6 +5,7 @@
 #include <QObject>
 #include <QString>
 #include <QTimer>
+#include <cstdint>
 #include <string>
 #include <thread>
 #include <vector>
@@ -67,13 +68,14 @@ class Document : public QObject {
   void changedOnDisk(bool gone);
 
  private:
-  void become(const QString& file);
+  void become(const QString& file, std::string bytes);
   void checkDisk();
   void compareWithDisk(bool gone, std::string now);
 
   views::Draft& draft_;
   QString file_;
-  std::string bytes_;  ///< the file's content as it was last read or written
+  std::string bytes_;              ///< the file's content as it was last read or written
+  std::uint64_t becameTimes_ = 0;  ///< how often a file was opened or saved
   QFileSystemWatcher watcher_;
   QTimer copySoon_, lookSoon_;
   int lock_ = -1;      ///< a file lock, held from the first copy on; -1: none
