@@ -102,11 +102,11 @@ TEST(House, includesOnlyFromFoldersLowerDown) {
   EXPECT_GT(seen, 2000u) << "the test does not find the includes";
 }
 
-TEST(House, noFoldersOfTheLibraryIncludeEachOther) {
+TEST(House, noFoldersOfTheProductIncludeEachOther) {
   const std::regex include("^#include \"([^\"]+)\"");
   std::map<std::string, std::set<std::string>> uses;
   for (const fs::path& file : sources()) {
-    if (!file.string().starts_with("core/")) continue;
+    if (file.string().starts_with("tests/")) continue;
     std::ifstream in(sourceDir() / file);
     for (std::string line; std::getline(in, line);)
       if (std::smatch match; std::regex_search(line, match, include))
@@ -114,7 +114,7 @@ TEST(House, noFoldersOfTheLibraryIncludeEachOther) {
             !target.empty() && target.parent_path() != file.parent_path())
           uses[file.parent_path()].insert(target.parent_path());
   }
-  EXPECT_GT(uses.size(), 40u) << "the test does not find the includes";
+  EXPECT_GT(uses.size(), 60u) << "the test does not find the includes";
   for (const auto& [folder, first] : uses) {
     std::set<std::string> reached = first;
     for (std::vector<std::string> next(first.begin(), first.end()); !next.empty();) {

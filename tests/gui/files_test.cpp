@@ -11,9 +11,9 @@
 #include <QPushButton>
 #include <QStandardPaths>
 
-#include "app/workbench/controllers/export_target.h"
 #include "app/workbench/controllers/recent_files.h"
-#include "app/workbench/window/notice_bar.h"
+#include "app/workbench/dialogs/export_target.h"
+#include "app/workbench/dialogs/notice_bar.h"
 #include "gui_support.h"
 #include "hand.h"
 #include "trimtab/terrain/synthetic/sample.h"
@@ -303,6 +303,21 @@ TEST_F(WorkbenchFiles, aFileChangedOnDiskIsReadWhileTheWindowIsAtWork) {
   EXPECT_EQ(::write(held, "other", 5), 5);
   ::close(held);
   EXPECT_TRUE(waitFor([&] { return noticeButton(w(), "Reload") != nullptr; }));
+}
+
+TEST_F(WorkbenchFiles, whatWasOnDiskBeforeASaveIsNoChangeByAnotherProgram) {
+  ASSERT_TRUE(w().controllers().document->saveTo(path(dir / "p.json")));
+  ASSERT_EQ(::mkfifo((dir / "pipe").c_str(), 0600), 0);
+  std::filesystem::rename(dir / "pipe", dir / "p.json");
+  int held = -1;
+  ASSERT_TRUE(waitFor([&] { return (held = ::open((dir / "p.json").c_str(), O_WRONLY | O_NONBLOCK)) >= 0; }));
+  // The file is being read: what is saved now is newer than what the reader gets.
+  std::filesystem::rename(dir / "p.json", dir / "pipe");
+  edit();
+  ASSERT_TRUE(w().controllers().document->saveTo(path(dir / "p.json")));
+  EXPECT_EQ(::write(held, "other", 5), 5);
+  ::close(held);
+  EXPECT_FALSE(waitFor([&] { return noticeButton(w(), "Reload") != nullptr; }, 1000));
 }
 
 TEST_F(WorkbenchFiles, foldersOfTheKernelAreNoTerrain) {

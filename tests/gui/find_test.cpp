@@ -185,11 +185,7 @@ TEST_F(WorkbenchFind, f1SaysWhatAnyControlDoesInADialogToo) {
 TEST_F(WorkbenchFind, theStripSaysWorkspaceBudgetRecordingAndHostWithoutMovingOneAnother) {
   auto* const strip = w().findChild<workbench::StatusStrip*>();
   ASSERT_NE(strip, nullptr);
-  const auto place = [&](const char* name) -> QLabel* {
-    for (QLabel* each : strip->findChildren<QLabel*>())
-      if (each->accessibleName() == QLatin1String(name)) return each;
-    return nullptr;
-  };
+  const auto place = [&](const char* name) { return labelNamed(*strip, QLatin1String(name)); };
   QLabel *recording = place("Recording"), *source = place("Who moves the aircraft");
   ASSERT_TRUE(recording && source && place("Workspace"));
   ASSERT_TRUE(waitFor([&] { return place("Frame time and budget")->text().contains("ms"); }));

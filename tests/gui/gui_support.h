@@ -6,12 +6,14 @@
 #include <QAction>
 #include <QApplication>
 #include <QDockWidget>
+#include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMimeData>
 #include <QScreen>
 #include <QTest>
 #include <QTimer>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -41,6 +43,19 @@ inline QImage onDisplay(const QWidget& widget) {
       .convertToFormat(QImage::Format_RGB32);
 }
 
+/// Returns the label that screen readers call by this name, or null.
+inline QLabel* labelNamed(const QWidget& within, const QString& name) {
+  for (QLabel* label : within.findChildren<QLabel*>())
+    if (label->accessibleName() == name) return label;
+  return nullptr;
+}
+/// Reports whether a label has this in its text.
+inline bool labelSays(const QWidget& within, const QString& text) {
+  for (const QLabel* label : within.findChildren<QLabel*>())
+    if (label->text().contains(text)) return true;
+  return false;
+}
+
 /// Closes every modal dialog that opens while it lives. A test that expects none cannot hang on one, and a
 /// test that expects one need not know how long it takes to open.
 class DialogCloser {
@@ -62,11 +77,14 @@ class DialogCloser {
 };
 
 /// The sample terrain, 60 km wide with posts 120 m apart: the shipped flight stays over it. It is baked once
-/// per test program.
+/// per test program. For screenshots, TRIMTAB_SHOT_TERRAIN names another database, such as the sample with
+/// its objects.
 inline const std::filesystem::path& sampleTerrain() {
   static const ScratchDir dir;
-  static const bool baked = bakedSample(dir.path(), {1, 60, 120, {}}) != nullptr;
-  static const std::filesystem::path database = baked ? dir / "terrain" : std::filesystem::path();
+  static const std::filesystem::path database = [] {
+    if (const char* other = std::getenv("TRIMTAB_SHOT_TERRAIN")) return std::filesystem::path(other);
+    return bakedSample(dir.path(), {1, 60, 120, {}}) != nullptr ? dir / "terrain" : std::filesystem::path();
+  }();
   return database;
 }
 

@@ -59,9 +59,8 @@ class HostChoice : public Bench {
   workbench::HostChoicePanel& panel() { return *dock().findChild<workbench::HostChoicePanel*>(); }
   QTreeWidget& list() { return *panel().findChild<QTreeWidget*>(); }
   QString label(const char* name) {
-    for (const QLabel* each : panel().findChildren<QLabel*>())
-      if (each->accessibleName() == QLatin1String(name)) return each->text();
-    return {};
+    const QLabel* const found = labelNamed(panel(), QLatin1String(name));
+    return found != nullptr ? found->text() : QString();
   }
   void send(QUdpSocket& from, const std::vector<std::byte>& bytes) {
     from.writeDatagram(reinterpret_cast<const char*>(bytes.data()), qint64(bytes.size()),

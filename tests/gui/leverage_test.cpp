@@ -34,11 +34,6 @@ class LeveragePage : public Bench {
     EXPECT_TRUE(waitFor([this] { return ended_; }, 180000));
     return good_;
   }
-  bool says(const QString& text) {
-    const auto labels = page().findChildren<QLabel*>();
-    return std::any_of(labels.begin(), labels.end(),
-                       [&](const QLabel* label) { return label->text().contains(text); });
-  }
 
  private:
   bool ended_ = false, good_ = false;
@@ -47,7 +42,7 @@ class LeveragePage : public Bench {
 TEST_F(LeveragePage, showsWhatEachLeverIsWorthInTheFlightAndKeepsItWhenCancelled) {
   run();
   EXPECT_FALSE(page().running());
-  EXPECT_TRUE(says("Ctrl+L opens one")) << "it needs a flight";
+  EXPECT_TRUE(labelSays(page(), "Ctrl+L opens one")) << "it needs a flight";
   ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
   run();
   ASSERT_TRUE(ends()) << w().messages().text().toStdString();

@@ -256,12 +256,7 @@ TEST_F(WorkbenchLoop, aHostThatFallsSilentIsSaidAndCostsNothing) {
   const QString silent = "SILENT";
   ASSERT_TRUE(waitFor([&] { return w().messages().text().contains("fell silent"); }));
   w().dock("host")->raise();
-  const auto said = [&] {
-    for (const QLabel* label : w().findChildren<QLabel*>())
-      if (label->text().contains(silent)) return true;
-    return false;
-  };
-  EXPECT_TRUE(waitFor(said));
+  EXPECT_TRUE(waitFor([&] { return labelSays(w(), silent); }));
   using Mark = views::PlotMarks::Kind;
   EXPECT_TRUE(w().panels().plots->marks().lasts(Mark::host_silent)) << "the plots show it too";
   w().dock("decision")->raise();

@@ -56,11 +56,7 @@ class Observer : public Bench {
     QTest::keyRelease(&w().viewport(), key);
     EXPECT_TRUE(settle());
   }
-  bool statusSays(const QString& text) {
-    for (const QLabel* label : w().statusBar()->findChildren<QLabel*>())
-      if (label->text().contains(text)) return true;
-    return false;
-  }
+  bool statusSays(const QString& text) { return labelSays(*w().statusBar(), text); }
   bool drawsTerrain() { return w().viewport().overlayContents().notice.isEmpty(); }
 
   Flight flight_;
@@ -108,27 +104,21 @@ TEST_F(Observer, aHostWhoseDatagramsLeadToNothingIsToldWhyInTheHostDock) {
   w().dock("host")->show();
   w().dock("host")->raise();
   ASSERT_TRUE(comesToFront("host"));
-  const auto says = [&](const QString& row) {
-    for (const QLabel* label : w().dock("host")->findChildren<QLabel*>())
-      if (label->accessibleName() == row) return label->text();
-    return QString();
-  };
+  const QLabel* const link = labelNamed(*w().dock("host"), "Link");
+  ASSERT_NE(link, nullptr);
   for (const auto& host : hosts) {
     const std::uint16_t port = listen();
-    EXPECT_TRUE(waitFor([&] { return says("Link").contains("nothing yet"); }));
+    EXPECT_TRUE(waitFor([&] { return link->text().contains("nothing yet"); }));
     QUdpSocket socket;
     for (int i = 0; i < 25; ++i)
       socket.writeDatagram(reinterpret_cast<const char*>(host.bytes.data()), qint64(host.bytes.size()),
                            QHostAddress::LocalHost, port);
     EXPECT_TRUE(
-        waitFor([&] { return says("Link").contains("25") && says("Link").contains(host.says); }, 5000))
-        << says("Link").toStdString();
-    EXPECT_FALSE(says("Link").contains('\n')) << "one line";
+        waitFor([&] { return link->text().contains("25") && link->text().contains(host.says); }, 5000))
+        << link->text().toStdString();
+    EXPECT_FALSE(link->text().contains('\n')) << "one line";
     // The whole text is seen, however narrow the dock is.
-    for (const QLabel* label : w().dock("host")->findChildren<QLabel*>())
-      if (label->accessibleName() == "Link") {
-        EXPECT_TRUE(waitFor([&] { return label->height() >= label->heightForWidth(label->width()); }));
-      }
+    EXPECT_TRUE(waitFor([&] { return link->height() >= link->heightForWidth(link->width()); }));
     if (const QString shots = qEnvironmentVariable("TRIMTAB_SHOTS"); !shots.isEmpty())
       w().grab().save(shots + "/host-" + QString::number(host.bytes.size()) + ".png");
     w().feed().closeHost();
@@ -265,9 +255,7 @@ QString msIn(const QString& text) {
 }
 
 TEST_F(Observer, theLineAtTheFootOfTheImageAndTheStatusBarHaveOneNumber) {
-  QLabel* status = nullptr;
-  for (QLabel* label : w().statusBar()->findChildren<QLabel*>())
-    if (label->accessibleName() == QLatin1String("Frame time and budget")) status = label;
+  const QLabel* const status = labelNamed(*w().statusBar(), "Frame time and budget");
   ASSERT_NE(status, nullptr);
   int images = 0;
   double decideMs = 0;

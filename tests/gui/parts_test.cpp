@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "app/workbench/jobs/flight_playback.h"
-#include "app/workbench/viewport/free_camera.h"
+#include "app/workbench/jobs/free_camera.h"
 #include "app/workbench/window/options.h"
 #include "tests/support.h"
 #include "trimtab/host/flight.h"

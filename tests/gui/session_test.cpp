@@ -305,7 +305,8 @@ TEST_F(WorkbenchSession, aDamagedFileChangesNothing) {
 }
 
 TEST_F(WorkbenchSession, headLogsAndRulesCanBeDropped) {
-  writeFile(dir / "head.txt", "timestamp yaw_rad pitch_rad roll_rad\n0 0 0 0\n0.1 0.1 0.05 0\n0.2 0.2 0.05 0\n");
+  writeFile(dir / "head.txt",
+            "timestamp yaw_rad pitch_rad roll_rad\n0 0 0 0\n0.1 0.1 0.05 0\n0.2 0.2 0.05 0\n");
   drop(dir / "head.txt");
   EXPECT_EQ(session().head().source(), HeadInput::Source::log) << w().messages().text().toStdString();
   Policy policy;

@@ -15,11 +15,7 @@ namespace {
 class StaticLodDock : public Bench {
  protected:
   views::StaticLodPanel& panel() { return *w().panels().staticLod; }
-  bool says(const QString& text) {
-    for (const QLabel* label : panel().findChildren<QLabel*>())
-      if (label->text().contains(text)) return true;
-    return false;
-  }
+  bool says(const QString& text) { return labelSays(panel(), text); }
   QString legend() const { return window->viewport().overlayContents().legendTitle; }
 };
 

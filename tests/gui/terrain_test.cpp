@@ -39,11 +39,7 @@ class TerrainDock : public Bench {
   views::TerrainPanel& panel() {
     return *w().dock(QStringLiteral("terrain"))->findChild<views::TerrainPanel*>();
   }
-  bool says(const QString& text) {
-    for (const QLabel* label : panel().findChildren<QLabel*>())
-      if (label->text().contains(text)) return true;
-    return false;
-  }
+  bool says(const QString& text) { return labelSays(panel(), text); }
   QToolButton* button(const QString& text) {
     for (QToolButton* each : panel().findChildren<QToolButton*>())
       if (each->defaultAction() != nullptr && each->defaultAction()->iconText().contains(text)) return each;

@@ -75,10 +75,8 @@ QPushButton* writeButton(WeatherWizard& wizard) {
 }
 
 QString rejectedText(WeatherWizard& wizard) {
-  for (const QLabel* label : wizard.findChildren<QLabel*>())
-    if (label->accessibleName() == QLatin1String("What is not written, and why"))
-      return label->isVisibleTo(&wizard) ? label->text() : QString();
-  return {};
+  const QLabel* const label = labelNamed(wizard, "What is not written, and why");
+  return label != nullptr && label->isVisibleTo(&wizard) ? label->text() : QString();
 }
 
 /// Another program takes half of the machine from a step on.

@@ -175,11 +175,7 @@ TEST_F(WorkbenchWindow, theCullingCaseIsSwitchedLiveAndCanBeUndone) {
 TEST_F(WorkbenchWindow, aClickDescribesThePickedNodeAndEndsPicking) {
   ASSERT_TRUE(settle());
   auto& panel = *w().panels().culling;
-  const auto says = [&panel](const QString& text) {
-    const auto labels = panel.findChildren<QLabel*>();
-    return std::any_of(labels.begin(), labels.end(),
-                       [&text](const QLabel* label) { return label->text().contains(text); });
-  };
+  const auto says = [&panel](const QString& text) { return labelSays(panel, text); };
   const auto pickAt = [&](double down) {
     for (QPushButton* button : panel.findChildren<QPushButton*>())
       if (button->text().contains("Pick")) button->click();
@@ -356,11 +352,7 @@ TEST_F(WorkbenchWindow, theHostDockListensOnTheInterfaceAndTheGroupThatAreChosen
   // A name is looked up without waiting for it.
   field("Reply address")->setText(QStringLiteral("localhost:4001"));
   emit field("Reply address")->editingFinished();
-  EXPECT_TRUE(waitFor([&] {
-    for (const QLabel* label : dock.findChildren<QLabel*>())
-      if (label->text() == QStringLiteral("localhost is 127.0.0.1")) return true;
-    return false;
-  }));
+  EXPECT_TRUE(waitFor([&] { return labelSays(dock, "localhost is 127.0.0.1"); }));
   for (const char* each : {"Multicast group", "Reply address"}) field(each)->clear();
   interfaces->setCurrentIndex(0);
   EXPECT_TRUE(dock.connectHost().empty());  // remembers what the next tests begin with

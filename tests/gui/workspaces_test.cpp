@@ -3,7 +3,6 @@
 #include <QAction>
 #include <QComboBox>
 #include <QDockWidget>
-#include <QFile>
 #include <QHeaderView>
 #include <QLabel>
 #include <QScrollArea>
@@ -78,6 +77,20 @@ QStringList cutWords(const QWidget& window) {
   return cut;
 }
 
+/// What scrolls up and down within a place that does so as well.
+QStringList nestedScrolls(const QWidget& window) {
+  QStringList nested;
+  const auto scrolls = [](const QAbstractScrollArea* each) {
+    return each != nullptr && !each->visibleRegion().isEmpty() && each->verticalScrollBar()->maximum() > 0;
+  };
+  for (const auto* area : window.findChildren<QAbstractScrollArea*>())
+    for (const QWidget* holder = area->parentWidget(); holder != nullptr && scrolls(area);
+         holder = holder->parentWidget())
+      if (scrolls(qobject_cast<const QAbstractScrollArea*>(holder)))
+        nested << area->accessibleName() + " in " + holder->accessibleName();
+  return nested;
+}
+
 class WorkbenchWorkspaces : public Bench {
  protected:
   workbench::Workspaces& spaces() { return w().workspaces(); }
@@ -126,6 +139,7 @@ TEST_F(WorkbenchWorkspaces, ctrlAndANumberShowWhatEachJobNeedsWithoutACutWordAnd
           << name << " at " << size.width() << '\n'
           << cutWords(w()).join("\n").toStdString();
       EXPECT_EQ(w().size(), size) << "nothing widens the window";
+      EXPECT_TRUE(nestedScrolls(w()).isEmpty()) << nestedScrolls(w()).join("\n").toStdString();
       const QSize image = w().viewport().size();
       EXPECT_GE(2 * image.width() * image.height(), size.width() * size.height())
           << name << ": " << image.width() << " x " << image.height();
@@ -145,10 +159,8 @@ TEST_F(WorkbenchWorkspaces, aLayoutOfAnEarlierVersionOpensWithoutTheDocksThatAre
   delete gone;
   press(Qt::Key_1);
   const QString file = QString::fromStdString((dir / "old.workspace.json").string());
-  QFile to(file);
-  ASSERT_TRUE(to.open(QIODevice::WriteOnly));
-  to.write("{\"trimtab_workspace\": 5, \"name\": \"Old\", \"docks\": \"" + state + "\"}");
-  to.close();
+  writeFile(dir / "old.workspace.json",
+            "{\"trimtab_workspace\": 5, \"name\": \"Old\", \"docks\": \"" + state.toStdString() + "\"}");
   const int messages = w().messages().count();
   w().openAny(file);
   EXPECT_EQ(w().messages().count(), messages) << w().messages().text().toStdString();
@@ -197,6 +209,7 @@ TEST_F(WorkbenchWorkspaces, policyDoesNotScrollSidewaysBesideTheDetailsOfPlots) 
     EXPECT_GE(pages.currentWidget()->visibleRegion().boundingRect().height(),
               6 * panel.fontMetrics().height())
         << pages.tabText(page).toStdString();
+    EXPECT_TRUE(nestedScrolls(w()).isEmpty()) << nestedScrolls(w()).join("\n").toStdString();
     const QString shots = qEnvironmentVariable("TRIMTAB_SHOTS");
     if (!shots.isEmpty()) w().grab().save(QString("%1/policy-%2.png").arg(shots).arg(page));
   }
@@ -288,10 +301,7 @@ TEST_F(WorkbenchWorkspaces, aFileThatIsNoneIsRefusedAndChangesNothing) {
   for (const char* text : {"", "{}", "[1, 2]", "{\"trimtab_workspace\": 5, \"docks\": \"AAAA\"}",
                            "{\"trimtab_workspace\": 4000, \"docks\": \"AAAA\"}"}) {
     const QString file = QString::fromStdString((dir / "bad.workspace.json").string());
-    QFile to(file);
-    ASSERT_TRUE(to.open(QIODevice::WriteOnly));
-    to.write(text);
-    to.close();
+    writeFile(dir / "bad.workspace.json", text);
     EXPECT_FALSE(spaces().readFrom(file).empty()) << text;
     EXPECT_EQ(spaces().names().size(), 5) << text;
     EXPECT_TRUE(comesToFront("errors")) << text;

@@ -45,11 +45,8 @@ std::optional<double> ConversionEdit::offset() const {
 }
 
 void ConversionEdit::show() {
-  for (const auto& [line, good] : {std::pair{scale_, scale().has_value()}, {offset_, offset().has_value()}}) {
-    QPalette colours;
-    if (!good) colours.setColor(QPalette::Text, errorColour(palette()));
-    line->setPalette(colours);
-  }
+  for (const auto& [line, good] : {std::pair{scale_, scale().has_value()}, {offset_, offset().has_value()}})
+    setInk(*line, good ? Ink::plain : Ink::error);
 }
 
 }  // namespace trimtab::views

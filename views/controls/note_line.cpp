@@ -4,8 +4,6 @@
 #include <QApplication>
 #include <QEvent>
 
-#include "views/model/theme.h"
-
 namespace trimtab::views {
 namespace {
 
@@ -20,10 +18,10 @@ NoteLine::NoteLine(QWidget* parent) : QLabel(parent) {
   keepPlace();
 }
 
-void NoteLine::say(const QString& text, const QColor& colour) {
+void NoteLine::say(const QString& text, Ink ink) {
   setText(text);
   setToolTip(text);
-  setTextColour(*this, colour);
+  setInk(*this, ink);
 }
 
 void NoteLine::changeEvent(QEvent* event) {
@@ -47,9 +45,9 @@ NoteBubble::NoteBubble(QWidget& control) : QLabel(control.parentWidget()), contr
   connect(qApp, &QApplication::focusChanged, this, [this](QWidget*, QWidget* now) { onFocus(now); });
 }
 
-void NoteBubble::say(const QString& text, const QColor& colour) {
+void NoteBubble::say(const QString& text, Ink ink) {
   setText(text);
-  setTextColour(*this, colour);
+  setInk(*this, ink);
   place();
 }
 

@@ -4,6 +4,8 @@
 #include <QLabel>
 #include <QPointer>
 
+#include "views/model/theme.h"
+
 namespace trimtab::views {
 
 /// A place for a sentence about what was just done, such as a refusal. It keeps its two lines while it is
@@ -12,7 +14,7 @@ class NoteLine : public QLabel {
   Q_OBJECT
  public:
   explicit NoteLine(QWidget* parent = nullptr);
-  void say(const QString& text, const QColor& colour);
+  void say(const QString& text, Ink ink);
 
  protected:
   void changeEvent(QEvent* event) override;
@@ -29,7 +31,7 @@ class NoteBubble : public QLabel {
  public:
   /// `control` is in a layout of its parent, in which the bubble shows.
   explicit NoteBubble(QWidget& control);
-  void say(const QString& text, const QColor& colour);
+  void say(const QString& text, Ink ink);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

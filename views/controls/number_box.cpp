@@ -59,7 +59,7 @@ NumberBox::NumberBox(Draft& draft, std::string_view key, QWidget* parent)
   connect(lineEdit(), &QLineEdit::textChanged, this, [this](QString text) {
     int position = 0;
     const bool good = validate(text, position) == QValidator::Acceptable;
-    setTextColour(*lineEdit(), good ? palette().color(QPalette::Text) : errorColour(palette()));
+    setInk(*lineEdit(), good ? Ink::plain : Ink::error);
   });
 }
 

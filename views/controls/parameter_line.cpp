@@ -15,7 +15,6 @@
 #include "parameter_of.h"
 #include "parameter_slider.h"
 #include "views/model/keys.h"
-#include "views/model/theme.h"
 #include "views/model/value_text.h"
 
 namespace trimtab::views {
@@ -103,6 +102,7 @@ ParameterLine::ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout&
     readValues();
     refresh();
   });
+  whenThemeChanges(*label_, [this] { refresh(); });
   readValues();
   refresh();
 }
@@ -255,14 +255,14 @@ void ParameterLine::refresh() {
   now.changed = draft_.isChanged(row_.key, reference_);
   for (std::size_t i = 0; i < kValues; ++i) now.differs[i] = draft_.isChanged(row_.key, kColumns[i]);
   now.problem = refusal_;
-  now.colour = errorColour(label_->palette());
+  now.mark = seriesColour(1, label_->palette());
   if (const Findings findings = draft_.findingsOf(row_.key); now.problem.isEmpty() && !findings.empty()) {
     QStringList said;
     for (const Finding& f : findings)
       said << tr("Expected %1; found %2.")
                   .arg(QString::fromStdString(f.expected), QString::fromStdString(f.found));
     now.problem = said.join(QLatin1Char(' '));
-    if (findings.front().severity != Severity::error) now.colour = warningColour(label_->palette());
+    if (findings.front().severity != Severity::error) now.ink = Ink::warning;
   }
   if (row_.kind != Kind::scalar && row_.kind != Kind::flag && row_.kind != Kind::choice)
     showLists(now.differs);
@@ -270,13 +270,12 @@ void ParameterLine::refresh() {
   if (now == shown_) return;
   shown_ = now;
   const QString name = fromView(row_.label).toHtmlEscaped();
-  const QString mark =
-      QStringLiteral("<span style='color:%1'>●</span> ").arg(seriesColour(1, label_->palette()).name());
+  const QString mark = QStringLiteral("<span style='color:%1'>●</span> ").arg(now.mark.name());
   label_->setText(now.changed ? mark + QStringLiteral("<b>%1</b>").arg(name) : name);
   label_->setAccessibleName(now.changed ? tr("%1, changed").arg(fromView(row_.label)) : fromView(row_.label));
   for (std::size_t i = 0; i < kValues; ++i) values_[i]->setEnabled(now.differs[i]);
   reset_->setEnabled(now.changed);
-  problem_->say(now.problem, now.colour);
+  problem_->say(now.problem, now.ink);
 }
 
 }  // namespace trimtab::views

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "views/model/draft.h"
+#include "views/model/theme.h"
 
 class QGridLayout;
 class QLabel;
@@ -28,6 +29,7 @@ class ParameterLine : public QObject {
   ParameterLine(Draft& draft, const ParameterRow& row, QGridLayout& grid, int gridRow);
 
   const ParameterRow& row() const { return row_; }
+  const QLabel& label() const { return *label_; }
   QWidget* editor() const { return editor_; }
   /// Goes back to what the line is compared with.
   QToolButton* resetButton() const { return reset_; }
@@ -70,7 +72,8 @@ class ParameterLine : public QObject {
     bool changed = false;
     std::array<bool, kValues> differs{};
     QString problem;
-    QColor colour;
+    Ink ink = Ink::error;
+    QColor mark;
     friend bool operator==(const State&, const State&) = default;
   };
   State shown_;

@@ -86,6 +86,7 @@ void ParameterTable::makeBar() {
       "the base that it names, the program's defaults, or a pinned snapshot"));
   resetAll_->setAutoDefault(false);
   summary_->setWordWrap(true);
+  whenThemeChanges(*summary_, [this] { summarise(); });
   connect(search_, &QLineEdit::textChanged, this, &ParameterTable::filter);
   connect(tier_, &QComboBox::currentIndexChanged, this, &ParameterTable::filter);
   connect(changedOnly_, &QCheckBox::toggled, this, &ParameterTable::filter);
@@ -144,7 +145,7 @@ void ParameterTable::makeHeader(QGridLayout& grid, int gridRow, const QString& n
   const QString titles[] = {tr("File"), tr("Base"), tr("Default")};
   for (std::size_t i = 0; i < group.columns.size(); ++i) {
     group.columns[i] = new QLabel(titles[i]);
-    setTextColour(*group.columns[i], quietColour(palette()));
+    setInk(*group.columns[i], Ink::quiet);
     grid.addWidget(group.columns[i], gridRow, 3 + int(i), Qt::AlignCenter);
   }
   groups_.push_back(std::move(group));

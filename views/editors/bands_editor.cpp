@@ -97,7 +97,7 @@ void BandsEditor::say(const QString& refusal) {
 
 void BandsEditor::showNote() {
   QString text = refusal_;
-  QColor colour = errorColour(palette());
+  Ink ink = Ink::error;
   for (const std::string_view key : {key::kBands, key::kHysteresis}) {
     if (!text.isEmpty()) break;
     const Findings findings = draft_.findingsOf(key);
@@ -106,9 +106,9 @@ void BandsEditor::showNote() {
                .arg(QString::fromStdString(std::string(findRow(key)->label)),
                     QString::fromStdString(findings.front().expected),
                     QString::fromStdString(findings.front().found));
-    if (findings.front().severity != Severity::error) colour = warningColour(palette());
+    if (findings.front().severity != Severity::error) ink = Ink::warning;
   }
-  note_->say(text, colour);
+  note_->say(text, ink);
   remove_->setEnabled(scale_->selected() >= 0);
 }
 

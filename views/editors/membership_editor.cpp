@@ -92,19 +92,19 @@ void CurveEditor::say(const QString& refusal) {
 
 void CurveEditor::showNote() {
   QString text;
-  QColor colour = errorColour(palette());
+  Ink ink = Ink::error;
   if (!refusal_.isEmpty()) {
     text = refusal_;
   } else if (const Findings findings = draft_.findingsOf(spec_.key); !findings.empty()) {
     text = tr("Expected %1; found %2.")
                .arg(QString::fromStdString(findings.front().expected),
                     QString::fromStdString(findings.front().found));
-    if (findings.front().severity != Severity::error) colour = warningColour(palette());
+    if (findings.front().severity != Severity::error) ink = Ink::warning;
   } else if (!spec_.usesPoints(draft_.parameters())) {
     text = tr("This reading does not use the breakpoints. Choose another reading to edit them.");
-    colour = quietColour(palette());
+    ink = Ink::quiet;
   }
-  note_->say(text, colour);
+  note_->say(text, ink);
   const bool editable = spec_.usesPoints(draft_.parameters());
   add_->setEnabled(editable);
   remove_->setEnabled(editable && plot_->selected() >= 0);

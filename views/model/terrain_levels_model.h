@@ -2,8 +2,8 @@
 #pragma once
 
 #include "rows_model.h"
+#include "terrain_summary.h"
 #include "trimtab/frame/terrain_frame.h"
-#include "views/panels/terrain_panel.h"
 
 namespace trimtab::views {
 

@@ -3,12 +3,40 @@
 
 #include <qcustomplot.h>
 
+#include <QApplication>
+#include <QEvent>
 #include <QLocale>
 #include <QPainter>
 #include <array>
 #include <cmath>
 
 namespace trimtab::views {
+namespace {
+
+constexpr const char* kInk = "trimtab_ink";
+
+/// Calls a function when the palette of its widget has changed.
+class ThemeWatch : public QObject {
+ public:
+  ThemeWatch(QWidget& widget, std::function<void()> act) : QObject(&widget), act_(std::move(act)) {}
+  bool eventFilter(QObject*, QEvent* event) override {
+    if (event->type() == QEvent::PaletteChange) act_();
+    return false;
+  }
+
+ private:
+  std::function<void()> act_;
+};
+
+/// The colour comes from the palette of the program: that of the widget has the ink of before in it.
+void showInk(QWidget& widget) {
+  const auto ink = static_cast<Ink>(widget.property(kInk).toInt());
+  QPalette own;  // sets no colour yet: the widget looks as its parent does
+  if (ink != Ink::plain) own.setColor(widget.foregroundRole(), colourOf(ink, QApplication::palette(&widget)));
+  widget.setPalette(own);
+}
+
+}  // namespace
 
 bool isDark(const QPalette& palette) {
   return palette.color(QPalette::Base).lightness() < palette.color(QPalette::Text).lightness();
@@ -49,11 +77,30 @@ void paintFocusFrame(QWidget& widget) {
   painter.drawRect(widget.rect().adjusted(1, 1, -1, -1));
 }
 
-void setTextColour(QWidget& widget, const QColor& colour) {
-  QPalette palette = widget.palette();
-  if (palette.color(widget.foregroundRole()) == colour) return;
-  palette.setColor(widget.foregroundRole(), colour);
-  widget.setPalette(palette);
+QColor colourOf(Ink ink, const QPalette& palette) {
+  switch (ink) {
+    case Ink::quiet:
+      return quietColour(palette);
+    case Ink::warning:
+      return warningColour(palette);
+    case Ink::error:
+      return errorColour(palette);
+    case Ink::plain:
+      break;
+  }
+  return palette.color(QPalette::WindowText);
+}
+
+void setInk(QWidget& widget, Ink ink) {
+  const QVariant before = widget.property(kInk);
+  if (before == static_cast<int>(ink)) return;
+  widget.setProperty(kInk, static_cast<int>(ink));
+  showInk(widget);
+  if (!before.isValid()) whenThemeChanges(widget, [&widget] { showInk(widget); });
+}
+
+void whenThemeChanges(QWidget& widget, std::function<void()> act) {
+  widget.installEventFilter(new ThemeWatch(widget, std::move(act)));
 }
 
 void applyTheme(QCustomPlot& plot) {

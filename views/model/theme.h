@@ -4,6 +4,7 @@
 #include <QColor>
 #include <QPalette>
 #include <QString>
+#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -28,8 +29,15 @@ QColor blend(const QColor& under, const QColor& over, double amount);
 /// Draws the focus frame of a widget that paints itself; call it last.
 void paintFocusFrame(QWidget& widget);
 
-/// Sets the text colour by the palette, which is cheaper than a style sheet.
-void setTextColour(QWidget& widget, const QColor& colour);
+/// What the colour of a text says.
+enum class Ink { plain, quiet, warning, error };
+QColor colourOf(Ink ink, const QPalette& palette);
+/// Gives the text of a widget the colour of `ink`, in every theme that is chosen while the widget lives. It
+/// sets the palette, which is cheaper than a style sheet.
+void setInk(QWidget& widget, Ink ink);
+/// Calls `act` whenever the theme changes while the widget lives. It is for colours that something keeps,
+/// such as the text of a label in HTML.
+void whenThemeChanges(QWidget& widget, std::function<void()> act);
 
 /// Gives every axis, label, grid and legend of a plot the colours of the palette and the font.
 void applyTheme(QCustomPlot& plot);

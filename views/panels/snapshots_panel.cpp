@@ -39,7 +39,7 @@ SnapshotsPanel::SnapshotsPanel(Draft& draft, Snapshots& snapshots, QWidget* pare
       "Medians of images that were not drawn in turns: where the flight or the machine changed between two "
       "snapshots, so did their times. Compare draws two presets in turns."));
   trust->setWordWrap(true);
-  setTextColour(*trust, quietColour(palette()));
+  setInk(*trust, Ink::quiet);
   grid->addWidget(trust, 2 * Snapshots::kCount, 0, 1, 5);
   grid->setRowStretch(2 * Snapshots::kCount + 1, 1);
   connect(&snapshots_, &Snapshots::changed, this, &SnapshotsPanel::refresh);
@@ -69,7 +69,7 @@ void SnapshotsPanel::makeLine(QGridLayout& grid, int slot) {
   l.result = new QLabel;
   l.result->setTextInteractionFlags(Qt::TextSelectableByMouse);
   l.result->setAccessibleName(tr("Results of snapshot %1").arg(letter));
-  setTextColour(*l.result, quietColour(palette()));
+  setInk(*l.result, Ink::quiet);
   QFont bold = font();
   bold.setBold(true);
   l.go->setFont(bold);

@@ -34,6 +34,7 @@ FindingsPage::FindingsPage(PolicyDraft& policy, QWidget* parent)
   list_->setMinimumHeight(fontMetrics().height() * 4);
   list_->setToolTip(tr("Click a line, or press Enter, to go to its rule or term"));
   setFocusProxy(list_);
+  whenThemeChanges(*this, [this] { colourLines(); });
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(4, 4, 4, 4);
   layout->addWidget(list_);
@@ -72,20 +73,28 @@ void FindingsPage::showFindings(const Findings& findings) {
     const QString text = tr("%1: expected %2; found %3.")
                              .arg(subject(finding), QString::fromStdString(finding.expected),
                                   QString::fromStdString(finding.found));
-    auto* item = new QListWidgetItem(text, list_);
-    if (finding.severity == Severity::error) item->setForeground(errorColour(palette()));
-    if (finding.severity == Severity::warning) item->setForeground(warningColour(palette()));
+    list_->addItem(text);
   }
-  if (findings_.empty() && !policy_.empty()) {
-    auto* item = new QListWidgetItem(tr("Nothing to remark."), list_);
-    item->setForeground(quietColour(palette()));
-  }
+  if (findings_.empty() && !policy_.empty()) list_->addItem(tr("Nothing to remark."));
+  colourLines();
   // A review follows each edit; who reads the list keeps the place.
   list_->setCurrentRow(std::min(line, list_->count() - 1));
   const auto count = static_cast<int>(
       std::ranges::count_if(findings_, [](const Finding& f) { return f.severity != Severity::note; }));
   told_ = count;
   emit countChanged(count);
+}
+
+void FindingsPage::colourLines() {
+  for (int row = 0; row < list_->count(); ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    const Severity severity = at < findings_.size() ? findings_[at].severity : Severity::note;
+    const Ink ink = at >= findings_.size()          ? Ink::quiet
+                    : severity == Severity::error   ? Ink::error
+                    : severity == Severity::warning ? Ink::warning
+                                                    : Ink::plain;
+    list_->item(row)->setForeground(colourOf(ink, palette()));
+  }
 }
 
 void FindingsPage::follow(int row) {

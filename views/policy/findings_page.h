@@ -25,6 +25,7 @@ class FindingsPage : public QWidget {
 
  private:
   void showFindings(const Findings& findings);
+  void colourLines();
   void follow(int row);
 
   PolicyDraft& policy_;

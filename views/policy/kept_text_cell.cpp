@@ -97,8 +97,7 @@ QWidget* KeptTextCell::createEditor(QWidget* parent, const QStyleOptionViewItem&
       index.model()->headerData(index.column(), Qt::Horizontal, Qt::DisplayRole).toString());
   editing_ = index;
   if (words_) addCompleter(*edit, index);
-  connect(edit, &QLineEdit::textEdited, edit,
-          [edit] { setTextColour(*edit, edit->parentWidget()->palette().color(QPalette::Text)); });
+  connect(edit, &QLineEdit::textEdited, edit, [edit] { setInk(*edit, Ink::plain); });
   return edit;
 }
 
@@ -108,7 +107,7 @@ void KeptTextCell::setEditorData(QWidget* editor, const QModelIndex& index) cons
   const QString text = index.data(Qt::EditRole).toString();
   const bool keeps = keptFor_ == index && keptOver_ == text;
   edit.setText(keeps ? kept_ : text);
-  if (keeps) setTextColour(edit, errorColour(edit.palette()));
+  if (keeps) setInk(edit, Ink::error);
 }
 
 void KeptTextCell::setModelData(QWidget* editor, QAbstractItemModel* model, const QModelIndex& index) const {
@@ -140,7 +139,7 @@ bool KeptTextCell::eventFilter(QObject* watched, QEvent* event) {
     if (edit != nullptr && done && editing_.isValid() &&
         edit->text() != editing_.data(Qt::EditRole).toString()) {
       if (const QString why = check_(editing_, edit->text()); !why.isEmpty()) {
-        setTextColour(*edit, errorColour(edit->palette()));
+        setInk(*edit, Ink::error);
         emit refused(why);
         return true;
       }

@@ -34,8 +34,8 @@
 namespace trimtab::views {
 namespace {
 
-// Lines of text that the plot and the pages need, and that both need to be shown at once.
-constexpr int kLeastPlotLines = 7, kLeastPageLines = 10, kRoomyLines = 25;
+// Lines of text that the plot and the pages need, what stands above both, and what both need at once.
+constexpr int kLeastPlotLines = 6, kLeastPageLines = 10, kHeadLines = 5, kRoomyLines = 25;
 
 /// A review takes some milliseconds: it follows a drag two or three times a second.
 constexpr int kReviewMs = 400;
@@ -73,6 +73,7 @@ PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
   parts_.tabs->setMinimumHeight(kLeastPageLines * fontMetrics().height());
   note_->setText(tr("The policy does not hold: the last valid one keeps running. See Findings."));
   note_->setWordWrap(true);
+  setInk(*note_, Ink::error);
   // It keeps its place while nothing is wrong, so that no control moves when something is.
   QSizePolicy keepsPlace = note_->sizePolicy();
   keepsPlace.setRetainSizeWhenHidden(true);
@@ -176,14 +177,16 @@ void PolicyPanel::makeTabs() {
   p.shares = new SharesView;
   p.surface = new SurfacePage(*policy_, track_);
   p.findings = new FindingsPage(*policy_);
-  auto* levers = new QWidget;
-  auto* column = new QVBoxLayout(levers);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(p.levers);
-  column->addWidget(p.shares, 1);
+  // Bars and shares scroll apart, so that no scroll bar is within another.
+  auto* levers = new QSplitter(Qt::Vertical);
+  levers->addWidget(scrollable(p.levers, tr("Levers")));
+  levers->addWidget(p.shares);
+  levers->setStretchFactor(0, 3);
+  levers->setStretchFactor(1, 2);
+  levers->setChildrenCollapsible(false);
   p.tabs->addTab(p.terms, tr("Terms"));
   p.tabs->addTab(p.rules, tr("Rules"));
-  p.tabs->addTab(scrollable(levers, tr("Levers")), tr("Levers"));
+  p.tabs->addTab(levers, tr("Levers"));
   p.tabs->addTab(p.surface, tr("Surface"));
   p.tabs->addTab(p.findings, tr("Findings"));
   p.tabs->setTabToolTip(2, tr("Where the levers are, and the share of each rule in them"));
@@ -246,20 +249,22 @@ void PolicyPanel::choose() {
   if (any_) throttle_.request();
 }
 
-/// In a low dock only the page of terms stands below its plot; the others have all the height.
+/// In a low dock only the page of terms stands below its plot, and in a very low one no page does: the pages
+/// scroll, so that the dock itself need not.
 void PolicyPanel::arrange() {
-  const bool pages = !parts_.tabs->isHidden(), roomy = height() >= kRoomyLines * fontMetrics().height();
-  const bool plot = roomy || !pages || parts_.tabs->currentWidget() == parts_.terms;
+  const int lines = height() / fontMetrics().height();
+  const bool pages = !parts_.tabs->isHidden(), roomy = lines >= kRoomyLines;
+  const bool both = lines >= kLeastPlotLines + kLeastPageLines + kHeadLines;
+  const bool plot = roomy || !pages || (both && parts_.tabs->currentWidget() == parts_.terms);
   upper_->setVisible(plot);
   setFocusProxy(plot ? static_cast<QWidget*>(parts_.signalsList) : parts_.tabs->currentWidget());
   if (!plot || !pages || splitByHand_) return;
-  const int upper = split_->height() * (roomy ? 42 : 50) / 100;
+  const int upper = split_->height() * 42 / 100;
   split_->setSizes({upper, split_->height() - upper});
 }
 
 QSize PolicyPanel::minimumSizeHint() const {
-  const int lines = kLeastPlotLines + kLeastPageLines + 3;
-  return {QWidget::minimumSizeHint().width(), lines * fontMetrics().height()};
+  return {QWidget::minimumSizeHint().width(), (kLeastPageLines + kHeadLines) * fontMetrics().height()};
 }
 
 void PolicyPanel::resizeEvent(QResizeEvent* event) {
@@ -285,7 +290,6 @@ void PolicyPanel::showState() {
   const bool broken =
       !draft_.findingsOf(key::kPolicyTerms).empty() || !draft_.findingsOf(key::kPolicyRules).empty();
   note_->setVisible(broken);
-  setTextColour(*note_, errorColour(palette()));
 }
 
 void PolicyPanel::addFirstTerm() {

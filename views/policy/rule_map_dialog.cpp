@@ -134,7 +134,7 @@ void RuleMapDialog::addLines(QGridLayout& grid, const std::vector<RuleFile::Vari
   const int top = grid.rowCount();
   for (int i = 0; i < titles.size(); ++i) {
     auto* title = new QLabel(titles[i]);
-    setTextColour(*title, quietColour(palette()));
+    setInk(*title, Ink::quiet);
     grid.addWidget(title, top, i);
   }
   for (const RuleFile::Variable& variable : variables) {
@@ -198,7 +198,7 @@ void RuleMapDialog::refresh() {
 
   const auto say = [this](bool good, const QString& result, const Findings& findings) {
     ok_->setEnabled(good);
-    setTextColour(*result_, good ? palette().color(QPalette::WindowText) : errorColour(palette()));
+    setInk(*result_, good ? Ink::plain : Ink::error);
     result_->setText(result);
     findings_->setPlainText(QString::fromStdString(toString(findings)));
   };

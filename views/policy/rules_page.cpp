@@ -303,7 +303,7 @@ void RulesPage::showNote() {
   if (text.isEmpty()) text = sentences(policy_.draft().findingsOf(key::kPolicyRules));
   const int at = selected(), count = model_->rowCount();
   const QString switches = text.isEmpty() && at >= 0 ? switchNote(static_cast<std::size_t>(at)) : QString();
-  note_->say(text + switches, text.isEmpty() ? quietColour(palette()) : errorColour(palette()));
+  note_->say(text + switches, text.isEmpty() ? Ink::quiet : Ink::error);
   duplicate_->setEnabled(at >= 0);
   remove_->setEnabled(at >= 0);
   up_->setEnabled(at > 0);

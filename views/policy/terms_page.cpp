@@ -187,7 +187,7 @@ void TermsPage::say(const QString& refusal) {
 void TermsPage::showNote() {
   QString text = refusal_;
   if (text.isEmpty()) text = sentences(policy_.draft().findingsOf(key::kPolicyTerms));
-  note_->say(text, errorColour(palette()));
+  note_->say(text, Ink::error);
   const bool any = selectedLine() >= 0;
   for (QToolButton* button : {duplicate_, remove_, copy_, paste_}) button->setEnabled(any);
 }

@@ -6,10 +6,9 @@
 #include <QFileInfo>
 #include <QMessageBox>
 
+#include "app/workbench/dialogs/notice_bar.h"
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/viewport/viewport.h"
-#include "app/workbench/window/notice_bar.h"
-#include "export_target.h"
 #include "recent_files.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/preset/file_io.h"

@@ -6,7 +6,6 @@
 
 #include "app/workbench/dialogs/export_dialog.h"
 #include "document.h"
-#include "export_target.h"
 #include "workplace.h"
 
 namespace trimtab::workbench {

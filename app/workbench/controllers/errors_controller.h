@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "app/workbench/docks/error_dock.h"
-#include "app/workbench/viewport/draw_thread.h"
+#include "app/workbench/jobs/draw_thread.h"
 #include "run_inputs.h"
 #include "trimtab/frame/frame_request.h"
 #include "workplace.h"
@@ -53,7 +53,7 @@ class ErrorsController : public QObject {
   void endComparison();
 
  signals:
-  /// A short hint for the status bar.
+  /// Asks the status bar to show a short hint.
   void hint(const QString& text);
   /// Presets are to be measured, and the current workspace does not have the dock for their results.
   void placeWanted();

@@ -70,7 +70,7 @@ FrameController::FrameController(const Workplace& workplace, const TerrainContro
       fit_(QSettings().value(kFillsKey, true).toBool() ? ViewFit::fill : ViewFit::preset) {
   sinceStart_.start();
   Viewport& viewport = at_.viewport;
-  viewport.setSource([this](int widthPx, int heightPx) { return picture(widthPx, heightPx); });
+  viewport.setSource([this](int widthPx, int heightPx) { return nextImage(widthPx, heightPx); });
   connect(&viewport, &Viewport::painted, this, &FrameController::onPainted);
   connect(&viewport, &Viewport::glFailed, this, [this](const QString& why) {
     at_.messages.add(tr("The terrain cannot be drawn"),
@@ -116,7 +116,7 @@ const Session& FrameController::session() const {
   return observer_.pilot();
 }
 
-std::optional<Picture> FrameController::picture(int widthPx, int heightPx) {
+std::optional<NextImage> FrameController::nextImage(int widthPx, int heightPx) {
   const double now = link::now();
   at_.feed.advance(now);
   const QSize widget(widthPx, heightPx);
@@ -127,31 +127,31 @@ std::optional<Picture> FrameController::picture(int widthPx, int heightPx) {
   if (shown_) emit replaced(*shown_);
   shown_ = request;
 
-  Picture picture;
+  NextImage next;
   const auto& last = at_.viewport.lastResult();
   const Legend legend = legendOf(*request, last && last->patches, *terrain_.database());
-  picture.overlay.banner = observer_.banner();
-  picture.overlay.legendTitle = legend.title;
-  picture.overlay.legend = legend.entries;
-  picture.again = observer_.movesOnItsOwn(now);
+  next.overlay.banner = observer_.banner();
+  next.overlay.legendTitle = legend.title;
+  next.overlay.legend = legend.entries;
+  next.again = observer_.movesOnItsOwn(now);
   if (observer_.apart()) {
-    if (observer_.detached()) picture.pilot = pilotsOwn(*request);
-    picture.request = observer_.seen(*request);
+    if (observer_.detached()) next.pilot = pilotsOwn(*request);
+    next.request = observer_.seen(*request);
     AircraftState eye;
-    eye.position = picture.request.eye;
-    eye.attitude = picture.request.attitude;
-    picture.hud = [this, eye] { return hud(eye); };
+    eye.position = next.request.eye;
+    eye.attitude = next.request.attitude;
+    next.hud = [this, eye] { return hud(eye); };
   } else {
-    picture.request = std::move(*request);
-    picture.hud = [this, eye = session().eyeState(now)] { return hud(eye); };
+    next.request = std::move(*request);
+    next.hud = [this, eye = session().eyeState(now)] { return hud(eye); };
   }
   if (outlined_) {
-    const FrameRequest& r = picture.request;
+    const FrameRequest& r = next.request;
     const LocalFrame& local = terrain_.database()->index().frame;
-    picture.overlay.outline =
+    next.overlay.outline =
         outlineOf(*outlined_, {local.fromGeodetic(r.eye), eyeAxes(local, r.eye, r.attitude)}, r.view);
   }
-  return picture;
+  return next;
 }
 
 FrameCost FrameController::costOf(const FrameResult& result) const {

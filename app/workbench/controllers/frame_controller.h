@@ -62,7 +62,7 @@ class FrameController : public QObject {
   void painted();
 
  private:
-  std::optional<Picture> picture(int widthPx, int heightPx);
+  std::optional<NextImage> nextImage(int widthPx, int heightPx);
   FrameCost costOf(const FrameResult& result) const;
   QString hud(const AircraftState& eye) const;
   void onPainted();

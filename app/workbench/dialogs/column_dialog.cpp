@@ -173,8 +173,7 @@ void ColumnDialog::readNow() {
 void ColumnDialog::say(const QString& reading, const Findings& findings) {
   const bool good = !reading.isEmpty();
   ok_->setEnabled(good);
-  views::setTextColour(*reading_,
-                       good ? palette().color(QPalette::WindowText) : views::errorColour(palette()));
+  views::setInk(*reading_, good ? views::Ink::plain : views::Ink::error);
   if (!good)
     reading_->setText(tr("The file cannot be read so."));
   else

@@ -34,7 +34,7 @@ ColumnLines::ColumnLines(LogKind kind, const LogBeginning& log, QWidget* parent)
   const QStringList titles{tr("Quantity"), tr("Column"), tr("Unit"), tr("Scale and offset")};
   for (int i = 0; i < titles.size(); ++i) {
     auto* title = new QLabel(titles[i]);
-    views::setTextColour(*title, views::quietColour(palette()));
+    views::setInk(*title, views::Ink::quiet);
     grid->addWidget(title, 0, i);
   }
   for (const LogQuantity& quantity : logQuantities(kind)) {

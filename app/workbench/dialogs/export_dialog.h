@@ -4,7 +4,7 @@
 #include <QDialog>
 #include <optional>
 
-#include "app/workbench/controllers/export_target.h"
+#include "export_target.h"
 #include "trimtab/preset/preset.h"
 
 class QComboBox;

@@ -89,9 +89,7 @@ std::optional<QString> SweepChoice::keyOf(const Axis& axis) {
 /// Marks a field that names no parameter; proposes values where it names another one than before.
 void SweepChoice::readKey(Axis& axis) {
   const std::optional<QString> key = keyOf(axis);
-  const QPalette& colours = palette();
-  views::setTextColour(*axis.key->lineEdit(),
-                       key ? colours.color(QPalette::Text) : views::errorColour(colours));
+  views::setInk(*axis.key->lineEdit(), key ? views::Ink::plain : views::Ink::error);
   axis.key->setToolTip(key ? QString() : tr("No parameter is called this: choose one of the list"));
   if (!key || *key == axis.proposedFor) return;
   axis.proposedFor = *key;

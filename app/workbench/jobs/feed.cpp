@@ -202,7 +202,7 @@ void Feed::point(double right, double up) {
 void Feed::wake() {
   wakePosted_ = false;
   advance(link::now());
-  if (!picturesDrawn_) session_.noPicture();
+  if (!imagesDrawn_) session_.noPicture();
   emit statesArrived();
 }
 
@@ -248,7 +248,7 @@ bool Feed::movesOnItsOwn(double now) const {
   if (source_ == Source::camera)
     return (camera_ && session_.head().moves(now)) || (session_.hasState() && session_.needsImage(now));
   if (session_.unsettled()) return true;
-  // Ask a little ahead: directly after an image of `now` nothing has moved yet.
+  // It is asked a little ahead, because directly after an image of `now` nothing has moved yet.
   return source_ == Source::host && session_.linkState(now) != LinkState::silent &&
          session_.needsImage(now + 0.02);
 }

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/link/link.h"
-#include "app/workbench/viewport/free_camera.h"
 #include "flight_playback.h"
+#include "free_camera.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/session/session.h"
 
@@ -76,7 +76,7 @@ class Feed : public QObject {
   /// Whether images must follow without a further event, because a flight plays or the eye is extrapolated.
   bool movesOnItsOwn(double now) const;
   /// Set to false while no image is drawn because the window is hidden: then nothing waits for one.
-  void setPicturesDrawn(bool drawn) { picturesDrawn_ = drawn; }
+  void setImagesDrawn(bool drawn) { imagesDrawn_ = drawn; }
 
  signals:
   void statesArrived();  ///< a new image would differ from the last one
@@ -108,7 +108,7 @@ class Feed : public QObject {
   QTimer silence_;
   LinkState lastLink_ = LinkState::never;
   std::uint64_t lastJumps_ = 0;
-  bool picturesDrawn_ = true;
+  bool imagesDrawn_ = true;
   std::atomic<bool> wakePosted_ = false;
   HostSettings settings_;
   std::shared_ptr<const GroundHeights> ground_;

@@ -22,7 +22,7 @@ constexpr double kWindowS = 1;
 
 }  // namespace
 
-FrameRequest pilotsPicture(FrameRequest request, int shrink) {
+FrameRequest pilotsImage(FrameRequest request, int shrink) {
   request.overlays = {};
   request.view.widthPx = std::max(request.view.widthPx / shrink, 16);
   request.view.heightPx = std::max(request.view.heightPx / shrink, 16);
@@ -93,9 +93,8 @@ void LiveMeter::measure() {
   work->measured.smaller = shrink_ > 1;
   work->measured.imageWidthPx = frame->request.view.widthPx;
   work->measured.imageHeightPx = frame->request.view.heightPx;
-  work->frame.request = pilotsPicture(frame->request, shrink_);
-  for (const FrameRequest& before : frame->before)
-    work->frame.before.push_back(pilotsPicture(before, shrink_));
+  work->frame.request = pilotsImage(frame->request, shrink_);
+  for (const FrameRequest& before : frame->before) work->frame.before.push_back(pilotsImage(before, shrink_));
   busy_ = true;
   sinceLast_.start();
   thread_.run(
@@ -117,7 +116,7 @@ void LiveMeter::measure() {
         if (result.tookMs < kQuickMs) shrink_ = std::max(shrink_ / 2, 1);
         result.frameMs = medianMs();
         const bool wanted = on_ && work->generation == generation_;
-        // Nobody saw it: the same picture is not measured already.
+        // Nobody saw the result, so the same image still has to be measured.
         if (wanted)
           emit measured(result);
         else

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/workbench/viewport/draw_thread.h"
+#include "draw_thread.h"
 #include "trimtab/frame/frame_request.h"
 
 namespace trimtab::workbench {
@@ -68,7 +68,7 @@ class LiveMeter : public QObject {
 
 /// Returns a request for the image that the pilot would see: without what is drawn for the engineer, and
 /// `shrink` times smaller in width and height.
-FrameRequest pilotsPicture(FrameRequest request, int shrink);
+FrameRequest pilotsImage(FrameRequest request, int shrink);
 /// Whether both requests of one preset give the same image, apart from what moves by itself, such as rain.
 bool sameImage(const FrameRequest& a, const FrameRequest& b);
 

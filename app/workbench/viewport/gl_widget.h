@@ -52,7 +52,7 @@ class GlWidget : public QWidget {
   unsigned framebuffer() const;
   /// Sends the last image once more, as after another window lay over it.
   void showAgain();
-  /// Whether the paint event under way is for a picture of the window (QWidget::grab), not for the display.
+  /// Whether the paint event under way is for a copy of the window (QWidget::grab), not for the display.
   bool isGrabbed() const;
   QSize sizePx() const { return size() * devicePixelRatioF(); }
 

@@ -37,7 +37,7 @@ constexpr int kFollowed = 2;
 
 QImage imageOf(const std::vector<std::uint8_t>& rgba, int width, int height) {
   if (rgba.size() != std::size_t(width) * std::size_t(height) * 4) return {};
-  // Opaque whatever the drawing left in alpha.
+  // The format is opaque, whatever the drawing left in alpha.
   return QImage(rgba.data(), width, height, width * 4, QImage::Format_RGBX8888)
       .mirrored()
       .convertToFormat(QImage::Format_RGB32);
@@ -296,10 +296,9 @@ void SplitView::compare() {
     // A reference has the air of the preset it is held against.
     const Chosen& decides = one.reference ? sides_[side == left ? right : left] : chosen;
     if (decides.recent.empty())
-      one.requests = {pilotsPicture(last_->shown, shrink)};
+      one.requests = {pilotsImage(last_->shown, shrink)};
     else
-      for (const FrameRequest& request : decides.recent)
-        one.requests.push_back(pilotsPicture(request, shrink));
+      for (const FrameRequest& request : decides.recent) one.requests.push_back(pilotsImage(request, shrink));
     if (!symbols_)
       for (FrameRequest& request : one.requests) request.symbology.reset();
   }

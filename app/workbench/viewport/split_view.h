@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "draw_thread.h"
+#include "app/workbench/jobs/draw_thread.h"
 #include "heat_map.h"
 #include "split_picture.h"
 #include "trimtab/frame/frame_request.h"

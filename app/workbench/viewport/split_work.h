@@ -14,7 +14,7 @@
 
 namespace trimtab::workbench {
 
-/// Both sides' pictures, made on the measuring thread, and their times.
+/// Both sides' images, made on the measuring thread, and their times.
 struct SplitView::Work {
   /// So many pairs of both images are timed, and fewer where that would take too long.
   static constexpr std::size_t kPairs = 9;

@@ -45,8 +45,8 @@ void SymbologyEditor::setActive(bool on) {
   emit changed();
 }
 
-void SymbologyEditor::setPicture(const std::optional<SymbologyRequest>& symbols, const ViewShape& view,
-                                 const QRectF& place) {
+void SymbologyEditor::setImage(const std::optional<SymbologyRequest>& symbols, const ViewShape& view,
+                               const QRectF& place) {
   view_ = view;
   place_ = place;
   if (symbols)
@@ -81,7 +81,7 @@ bool SymbologyEditor::atCorner(QPointF at, int symbol) const {
   });
 }
 
-/// The chosen one's corners first, then the smallest box: a ladder lies under all the others.
+/// Prefers the corners of the chosen symbol, then the smallest box, because a ladder lies under all others.
 int SymbologyEditor::symbolAt(QPointF at) const {
   if (selected_ >= 0 && atCorner(at, selected_)) return selected_;
   int best = -1;
@@ -172,7 +172,7 @@ bool SymbologyEditor::key(const QKeyEvent& event) {
       return false;
   }
   if (!event.isAutoRepeat() || keyToken_ == 0) keyToken_ = draft_.newToken();
-  // A step of the picture's pixels, but never one that rounds to nothing.
+  // The step is one of the image's pixels, but never one that rounds to nothing.
   const double steps = event.modifiers() & Qt::ShiftModifier ? 10 : 1;
   const double dx = steps * std::max(2.0 / std::max(1, view_.widthPx), 0.001);
   const double dy = steps * std::max(2.0 / std::max(1, view_.heightPx), 0.001);

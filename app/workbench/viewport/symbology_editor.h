@@ -25,7 +25,7 @@ class SymbologyEditor : public QObject {
   void setActive(bool on);
   bool active() const { return active_; }
   /// Sets which symbols are on the display and where. Without symbols nothing can be dragged.
-  void setPicture(const std::optional<SymbologyRequest>& symbols, const ViewShape& view, const QRectF& place);
+  void setImage(const std::optional<SymbologyRequest>& symbols, const ViewShape& view, const QRectF& place);
   void select(int symbol);
   int selected() const { return selected_; }
   /// Returns the box round a symbol; empty if no part of it is in the image.

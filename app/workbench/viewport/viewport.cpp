@@ -25,8 +25,8 @@ const QColor kEmptyColour(38, 42, 48);
 
 /// Returns where an image lies in the widget without being distorted. Device pixels, origin at the lower
 /// left.
-QRect letterbox(QSize picture, QSize widget) {
-  const QSize fits = picture.scaled(widget, Qt::KeepAspectRatio);
+QRect letterbox(QSize image, QSize widget) {
+  const QSize fits = image.scaled(widget, Qt::KeepAspectRatio);
   return {QPoint((widget.width() - fits.width()) / 2, (widget.height() - fits.height()) / 2), fits};
 }
 
@@ -98,7 +98,7 @@ qint64 Viewport::controlsFirstMs() const {
 void Viewport::paintEvent(QPaintEvent* event) {
   const bool fits = sizePx() == paintedPx_ && !isGrabbed();
   if (fits && paused_) return showPaused();
-  // Nothing changed: the place was covered and is seen again.
+  // Nothing has changed; the place was covered and is seen again.
   if (fits && !dirty_) return showAgain();
   const qint64 wait = controlsFirstMs();
   if (!fits || wait <= 1) return GlWidget::paintEvent(event);
@@ -170,15 +170,15 @@ void Viewport::setPicking(bool on) {
 }
 
 /// Reads which node and which object own the clicked pixel of the image that was just drawn.
-void Viewport::readPicked(QSize picture) {
-  const QRect at = letterbox(picture, sizePx());
+void Viewport::readPicked(QSize image) {
+  const QRect at = letterbox(image, sizePx());
   const QPointF place = *std::exchange(pickAt_, std::nullopt) * devicePixelRatioF();
   const double across = (place.x() - at.left()) / at.width(),
                up = (height() * devicePixelRatioF() - place.y() - at.top()) / at.height();
   if (!(across >= 0 && across < 1 && up >= 0 && up < 1)) return;
   const std::size_t pixel =
-      static_cast<std::size_t>(up * picture.height()) * static_cast<std::size_t>(picture.width()) +
-      static_cast<std::size_t>(across * picture.width());
+      static_cast<std::size_t>(up * image.height()) * static_cast<std::size_t>(image.width()) +
+      static_cast<std::size_t>(across * image.width());
   const auto numberIn = [pixel](const std::vector<std::uint32_t>& numbers) {
     return pixel < numbers.size() ? numbers[pixel] : scene::Renderer::kNoNode;
   };
@@ -203,25 +203,24 @@ void Viewport::paintGL() {
   }
 
   const QSize pixels = sizePx();
-  std::optional<Picture> picture;
-  if (renderer_ != nullptr && terrain_ != nullptr && source_)
-    picture = source_(pixels.width(), pixels.height());
-  if (picture) {
-    FrameRequest& described = picture->pilot ? *picture->pilot : picture->request;
+  std::optional<NextImage> next;
+  if (renderer_ != nullptr && terrain_ != nullptr && source_) next = source_(pixels.width(), pixels.height());
+  if (next) {
+    FrameRequest& described = next->pilot ? *next->pilot : next->request;
     described.wholeHorizon = depthMapWanted_;
-    drawPicture(*picture, pixels.width(), pixels.height());
-    placePicture(*picture, pixels);
-    picture->overlay.image = pictureAt_;
-    showInset(picture->overlay);
-    if (picture->hud) picture->overlay.hud = picture->hud();
+    drawNext(*next, pixels.width(), pixels.height());
+    placeImage(*next, pixels);
+    next->overlay.image = imageAt_;
+    showInset(next->overlay);
+    if (next->hud) next->overlay.hud = next->hud();
   } else {
     QOpenGLFunctions& gl = *context()->functions();
     gl.glClearColor(float(kEmptyColour.redF()), float(kEmptyColour.greenF()), float(kEmptyColour.blueF()), 1);
     gl.glClear(GL_COLOR_BUFFER_BIT);
   }
-  again_ = camera_.moving() || (picture && picture->again);
-  unreported_ = picture.has_value();
-  shownOverlay_ = picture ? std::move(picture->overlay) : OverlayContents{.notice = notice_};
+  again_ = camera_.moving() || (next && next->again);
+  unreported_ = next.has_value();
+  shownOverlay_ = next ? std::move(next->overlay) : OverlayContents{.notice = notice_};
   if (!whyPaused_.isEmpty()) shownOverlay_.banner = whyPaused_;
   paintFlat([this](QPainter& painter) {
     paintOverlay(painter, rect(), shownOverlay_);
@@ -242,24 +241,24 @@ void Viewport::paintAgain() {
   QTimer::singleShot(wait, Qt::PreciseTimer, this, &Viewport::invalidate);
 }
 
-void Viewport::drawPicture(const Picture& picture, int widthPx, int heightPx) {
+void Viewport::drawNext(const NextImage& next, int widthPx, int heightPx) {
   if (terrainChanged_) {
     renderer_->setTerrain(terrain_);
     terrainChanged_ = false;
   }
   QOpenGLExtraFunctions& gl = *context()->extraFunctions();
-  const QSize wanted(picture.request.view.widthPx, picture.request.view.heightPx), have(widthPx, heightPx);
-  if (picture.pilot)
-    drawPilot(*picture.pilot);
+  const QSize wanted(next.request.view.widthPx, next.request.view.heightPx), have(widthPx, heightPx);
+  if (next.pilot)
+    drawPilot(*next.pilot);
   else
     pilots_.reset();
   if (wanted == have) {
     fixedSize_.reset();
-    drawImage(picture, framebuffer());
+    drawImage(next, framebuffer());
   } else {
     if (fixedSize_ == nullptr || fixedSize_->size() != wanted)
       fixedSize_ = std::make_unique<QOpenGLFramebufferObject>(wanted);
-    drawImage(picture, fixedSize_->handle());
+    drawImage(next, fixedSize_->handle());
     bindFramebuffer();
     gl.glDisable(GL_SCISSOR_TEST);
     gl.glClearColor(0, 0, 0, 1);
@@ -281,9 +280,9 @@ void Viewport::drawPilot(const FrameRequest& request) {
   readDepthMap();
 }
 
-void Viewport::drawImage(const Picture& picture, unsigned framebuffer) {
-  FrameResult result = renderer_->draw(picture.request, framebuffer);
-  if (picture.pilot) return;
+void Viewport::drawImage(const NextImage& next, unsigned framebuffer) {
+  FrameResult result = renderer_->draw(next.request, framebuffer);
+  if (next.pilot) return;
   result_ = std::make_shared<const FrameResult>(std::move(result));
   readDepthMap();
 }
@@ -291,7 +290,7 @@ void Viewport::drawImage(const Picture& picture, unsigned framebuffer) {
 /// Copies the pilot's image over the observer's, which is in the widget already.
 void Viewport::showInset(OverlayContents& overlay) {
   if (pilots_ == nullptr) return;
-  overlay.inset = insetIn(pictureAt_.toRect(), pilots_->size(), QFontMetrics(font()));
+  overlay.inset = insetIn(imageAt_.toRect(), pilots_->size(), QFontMetrics(font()));
   const double scale = devicePixelRatioF();
   const QRect to(QPoint(int(overlay.inset.left() * scale),
                         int((height() - overlay.inset.top() - overlay.inset.height()) * scale)),
@@ -363,14 +362,13 @@ void Viewport::setSymbologyEditor(SymbologyEditor* editor) {
   });
 }
 
-void Viewport::placePicture(const Picture& picture, QSize pixels) {
-  const ViewShape& view = picture.request.view;
+void Viewport::placeImage(const NextImage& next, QSize pixels) {
+  const ViewShape& view = next.request.view;
   const QRect at = letterbox({view.widthPx, view.heightPx}, pixels);
   const double scale = 1 / devicePixelRatioF();
-  pictureAt_ = {at.left() * scale, (pixels.height() - at.top() - at.height()) * scale, at.width() * scale,
-                at.height() * scale};
-  if (editor_ != nullptr && editor_->active())
-    editor_->setPicture(picture.request.symbology, view, pictureAt_);
+  imageAt_ = {at.left() * scale, (pixels.height() - at.top() - at.height()) * scale, at.width() * scale,
+              at.height() * scale};
+  if (editor_ != nullptr && editor_->active()) editor_->setImage(next.request.symbology, view, imageAt_);
 }
 
 void Viewport::keyPressEvent(QKeyEvent* event) {
@@ -417,9 +415,9 @@ void Viewport::mouseMoveEvent(QMouseEvent* event) {
     setCursor(editor_->cursor(event->position()));
     return;
   }
-  if (pointerWanted_ && !pictureAt_.isEmpty()) {
-    const QPointF from = (event->position() - pictureAt_.center()) * 2;
-    emit pointed({from.x() / pictureAt_.width(), -from.y() / pictureAt_.height()});
+  if (pointerWanted_ && !imageAt_.isEmpty()) {
+    const QPointF from = (event->position() - imageAt_.center()) * 2;
+    emit pointed({from.x() / imageAt_.width(), -from.y() / imageAt_.height()});
   }
   if (!cameraEnabled_ || picking_ || !(event->buttons() & Qt::LeftButton)) return;
   const QPointF moved = event->position() - lastMouse_;

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "free_camera.h"
+#include "app/workbench/jobs/free_camera.h"
 #include "gl_widget.h"
 #include "overlay.h"
 #include "trimtab/scene/renderer.h"
@@ -24,7 +24,7 @@ namespace trimtab::workbench {
 class SymbologyEditor;
 
 /// What the next image is made of. The viewport asks for it once per paint.
-struct Picture {
+struct NextImage {
   FrameRequest request;
   /// If set, `request` shows what an observer sees of this one, which is drawn too, as an inset; `lastResult`
   /// and the depth maps are this one's.
@@ -42,7 +42,7 @@ class Viewport : public GlWidget {
   Q_OBJECT
 
  public:
-  using Source = std::function<std::optional<Picture>(int widthPx, int heightPx)>;
+  using Source = std::function<std::optional<NextImage>(int widthPx, int heightPx)>;
 
   explicit Viewport(QWidget* parent = nullptr);
   ~Viewport() override;
@@ -114,14 +114,14 @@ class Viewport : public GlWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void drawPicture(const Picture& picture, int widthPx, int heightPx);
+  void drawNext(const NextImage& next, int widthPx, int heightPx);
   void drawPilot(const FrameRequest& request);
-  void drawImage(const Picture& picture, unsigned framebuffer);
+  void drawImage(const NextImage& next, unsigned framebuffer);
   void showInset(OverlayContents& overlay);
   void readDepthMap();
-  void readPicked(QSize picture);
+  void readPicked(QSize image);
   void showPaused();
-  void placePicture(const Picture& picture, QSize pixels);
+  void placeImage(const NextImage& next, QSize pixels);
   void report();
   void paintAgain();
   qint64 controlsFirstMs() const;
@@ -136,10 +136,10 @@ class Viewport : public GlWidget {
   std::shared_ptr<const FrameResult> result_;
   FreeCamera camera_;
   SymbologyEditor* editor_ = nullptr;
-  QRectF pictureAt_;  ///< where the last image lies in the widget
+  QRectF imageAt_;  ///< where the last image lies in the widget
   bool cameraEnabled_ = true, dirty_ = false, again_ = false, pointerWanted_ = false, picking_ = false;
   bool depthMapWanted_ = false;
-  bool depthMapDue_ = false;  ///< a repaint that reads the map is under way
+  bool depthMapDue_ = false;       ///< a repaint that reads the map is under way
   std::optional<QPointF> pickAt_;  ///< in the widget: where the next image is asked for its node
   QPointF lastMouse_;
   QString notice_;

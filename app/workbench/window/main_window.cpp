@@ -20,6 +20,7 @@
 
 #include "app/workbench/controllers/file_kind.h"
 #include "app/workbench/controllers/recent_files.h"
+#include "app/workbench/dialogs/notice_bar.h"
 #include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/error_dock.h"
@@ -32,7 +33,6 @@
 #include "appearance.h"
 #include "job_bar.h"
 #include "menus.h"
-#include "notice_bar.h"
 #include "plots_link.h"
 #include "session_keeper.h"
 #include "status_strip.h"
@@ -215,7 +215,7 @@ void MainWindow::connectPause() {
 void MainWindow::showPause() {
   viewport_->setPaused(pause_.on(), pause_.text());
   measuring_.setHeld(pause_.onBut(controllers_.errors->splitView()));
-  feed_.setPicturesDrawn(!isMinimized() && !pause_.on());
+  feed_.setImagesDrawn(!isMinimized() && !pause_.on());
 }
 
 void MainWindow::restoreSize() {

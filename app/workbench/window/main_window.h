@@ -4,9 +4,9 @@
 #include <QMainWindow>
 
 #include "app/workbench/controllers/controllers.h"
+#include "app/workbench/jobs/draw_thread.h"
 #include "app/workbench/jobs/feed.h"
 #include "app/workbench/jobs/view_pause.h"
-#include "app/workbench/viewport/draw_thread.h"
 #include "app/workbench/viewport/viewport.h"
 #include "dock_layout.h"
 #include "options.h"

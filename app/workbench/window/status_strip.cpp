@@ -27,6 +27,7 @@ StatusStrip::StatusStrip(const Feed& feed, const views::Draft& draft, QWidget* p
                      tr("Time of the last image, as the line at its foot has it, and the budget "
                         "(measure.budget_ms)"));
   recording_ = addPlace(tr("Recording"), tr("● trace"), tr("A trace is being recorded (Ctrl+R)"));
+  views::setInk(*recording_, views::Ink::error);
   source_ = addPlace(tr("Who moves the aircraft"), tr("host on port 88888 is SILENT, 888.8 s ago"),
                      tr("Who moves the aircraft, and when a host was heard last"));
   source_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -51,8 +52,7 @@ void StatusStrip::showFrame(const views::LiveFrame& frame) {
   // Words say it too, not the colour alone.
   budget_->setText((over ? tr("over: %1 of %2 ms") : tr("%1 of %2 ms"))
                        .arg(views::numberText(frame.cost.total, 1), views::numberText(ms, 1)));
-  views::setTextColour(*budget_,
-                       over ? views::errorColour(palette()) : palette().color(QPalette::WindowText));
+  views::setInk(*budget_, over ? views::Ink::error : views::Ink::plain);
 }
 
 void StatusStrip::showWorkspace(const QString& name) {
@@ -61,7 +61,6 @@ void StatusStrip::showWorkspace(const QString& name) {
 
 void StatusStrip::showRecording(bool recording) {
   recording_->setText(recording ? tr("● trace") : QString());
-  views::setTextColour(*recording_, views::errorColour(palette()));
 }
 
 void StatusStrip::showSource(const QString& text) {
@@ -77,8 +76,7 @@ void StatusStrip::showAge() {
   source_->setText(std::isfinite(age) ? tr("%1, %2 s ago").arg(sourceText_, views::numberText(age, 1))
                                       : sourceText_);
   const bool silent = open && feed_.session().linkState(now) == LinkState::silent;
-  views::setTextColour(*source_,
-                       silent ? views::errorColour(palette()) : palette().color(QPalette::WindowText));
+  views::setInk(*source_, silent ? views::Ink::error : views::Ink::plain);
 }
 
 }  // namespace trimtab::workbench

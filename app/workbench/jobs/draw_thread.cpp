@@ -11,7 +11,7 @@
 namespace trimtab::workbench {
 namespace {
 
-/// A tenth of what the picture gets where both want the processor.
+/// The thread gets about a tenth of what the image gets where both want the processor.
 constexpr int kNice = 10;
 
 }  // namespace
