@@ -35,7 +35,7 @@ QToolButton* ListButtons::add(const QString& text, const QString& tip) {
   button->setToolTip(tip);
   button->setAccessibleName(tip);
   button->setFocusPolicy(Qt::StrongFocus);
-  // Before the stretch, or behind it.
+  // The button stands before the stretch, or behind it once there is a space.
   row_->insertWidget(spaced_ ? row_->count() : row_->count() - 1, button);
   return button;
 }

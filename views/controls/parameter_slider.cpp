@@ -73,7 +73,7 @@ void ParameterSlider::read() {
 }
 
 void ParameterSlider::write(int position) {
-  // Keys and clicks beside the handle: one step until the key is released.
+  // Keys and clicks beside the handle make one step of the undo stack until the key is released.
   if (token_ == 0) token_ = draft_.newToken();
   draft_.setValue(row_->key, toValue(position), token_);
   if (!isSliderDown() && !hasFocus()) token_ = 0;

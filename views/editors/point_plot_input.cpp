@@ -70,7 +70,7 @@ int PointPlot::pointAt(QPointF pixel) const {
   const std::vector<EditPoint> points = this->points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double away = distance(points[i], pixel);
-    // At equal distance the selected one wins: it is drawn on top.
+    // At equal distance the selected one wins, because it is drawn on top.
     if (away < best || (away == best && static_cast<int>(i) == selected())) {
       best = away;
       nearest = static_cast<int>(i);

@@ -12,7 +12,7 @@ DepthMapInset::DepthMapInset(QWidget* parent) : QWidget(parent) {
   setAccessibleName(tr("Depth map of the last frame"));
 }
 
-void DepthMapInset::setPicture(const QImage& image, const QString& caption) {
+void DepthMapInset::setImage(const QImage& image, const QString& caption) {
   image_ = image;
   text_ = caption;
   setAccessibleDescription(caption);
@@ -38,9 +38,9 @@ void DepthMapInset::paintEvent(QPaintEvent*) {
     const int line = fontMetrics().height() + 6;
     const QRect space = rect().adjusted(0, 0, 0, -line);
     const QSize size = image_.size().scaled(space.size(), Qt::KeepAspectRatio);
-    const QRect picture(QPoint(space.center().x() - size.width() / 2, space.top()), size);
+    const QRect place(QPoint(space.center().x() - size.width() / 2, space.top()), size);
     painter.setRenderHint(QPainter::SmoothPixmapTransform, size.width() < image_.width());
-    painter.drawImage(picture, image_);
+    painter.drawImage(place, image_);
     painter.setPen(ink);
     painter.drawText(rect().adjusted(4, rect().height() - line, -4, 0), Qt::AlignCenter,
                      fontMetrics().elidedText(text_, Qt::ElideRight, width() - 8));

@@ -6,13 +6,13 @@
 
 namespace trimtab::views {
 
-/// The depth map of the last frame as a picture with a caption, or the reason why there is none.
+/// The depth map of the last frame as an image with a caption, or the reason why there is none.
 class DepthMapInset : public QWidget {
   Q_OBJECT
  public:
   explicit DepthMapInset(QWidget* parent = nullptr);
 
-  void setPicture(const QImage& image, const QString& caption);
+  void setImage(const QImage& image, const QString& caption);
   void setReason(const QString& why);
 
   QSize sizeHint() const override { return {320, 200}; }

@@ -52,7 +52,7 @@ bool sameValues(const TuningParameters& a, const TuningParameters& b) {
 
 }  // namespace
 
-/// The one undo command of the program: values before and after.
+/// The one undo command of the program holds the values before and after.
 class Draft::Edit : public QUndoCommand {
  public:
   Edit(Draft& draft, Changes changes, const QString& what, MergeToken token)

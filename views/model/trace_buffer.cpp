@@ -23,7 +23,7 @@ void appendNumber(std::string& out, Number value) {
   out.append(digits.data(), end);
 }
 
-/// fmin and fmax pass over NaN.
+/// Widens a range by a value; fmin and fmax pass over NaN.
 void widen(float& low, float& high, float value) {
   low = std::fmin(low, value);
   high = std::fmax(high, value);
@@ -277,7 +277,7 @@ void TraceBuffer::columns(Trace trace, std::uint64_t from, std::uint64_t to, std
   if (from >= to || wanted == 0) return;
   const std::uint64_t each = std::max<std::uint64_t>(1, (to - from + wanted - 1) / wanted);
   const bool byBlock = each >= 2 * kBlock;
-  // Whole multiples from frame 0 on, so that a column keeps its frames while the picture scrolls.
+  // Whole multiples from frame 0 on, so that a column keeps its frames while the plot scrolls.
   const std::uint64_t width = byBlock ? each / kBlock * kBlock : each;
   for (std::uint64_t f = from / width * width; f < to; f += width) {
     const std::uint64_t last = std::min(f + width, to);

@@ -78,7 +78,7 @@ BeforeAfter changeText(const Change& change) {
   if (!isList(row)) return {shortText(row, change.before), shortText(row, change.after)};
   const QStringList before = entriesOf(row, change.before), after = entriesOf(row, change.after);
   const BeforeAfter said{onlyIn(before, after), onlyIn(after, before)};
-  // The same entries in another order.
+  // Both have the same entries in another order, so all are shown.
   if (said.before == said.after) return {before.join(QStringLiteral("  ")), after.join(QStringLiteral("  "))};
   return said;
 }

@@ -142,7 +142,7 @@ void CullingPanel::showFrame(const LiveFrame& frame) {
 
 void CullingPanel::showMap(const QImage& image, const QString& caption) {
   hasMap_ = !image.isNull();
-  if (hasMap_) return map_->setPicture(image, caption);
+  if (hasMap_) return map_->setImage(image, caption);
   map_->setReason(whyNoDepthMap(frame_, *draft_.active()));
 }
 

@@ -96,7 +96,7 @@ SymbologyPanel::SymbologyPanel(Draft& draft, QWidget* parent)
         show, new ChoiceBox(draft, keyOf(prefix, ".colour")), new NumberBox(draft, keyOf(prefix, ".x")),
         new NumberBox(draft, keyOf(prefix, ".y")), new NumberBox(draft, keyOf(prefix, ".size"))};
     for (int c = 0; c < 5; ++c) {
-      // Three decimals and their arrows: the row has to fit a dock.
+      // The row has to fit a dock, so a field is as wide as three decimals and its arrows.
       if (c >= 2) editors[c]->setFixedWidth(fontMetrics().horizontalAdvance(QStringLiteral("-0.0000")) + 28);
       grid->addWidget(editors[c], i + 1, c);
       editors[c]->setProperty("symbol", i);

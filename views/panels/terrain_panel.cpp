@@ -90,7 +90,7 @@ TerrainPanel::TerrainPanel(Draft& draft, QWidget* parent)
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 6);
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setStretchLastSection(true);
-  // As high as its rows: the dock scrolls, and no bar of its own covers the last column.
+  // The table is as high as its rows: the dock scrolls, and no bar of its own covers the last column.
   table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
 
   auto* progress = new QHBoxLayout;

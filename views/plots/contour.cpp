@@ -10,7 +10,8 @@ std::vector<std::pair<ContourPoint, ContourPoint>> contour(const SampledSurface&
   if (s.columns < 2 || s.rows < 2) return pieces;
   for (std::size_t y = 0; y + 1 < s.rows; ++y) {
     for (std::size_t x = 0; x + 1 < s.columns; ++x) {
-      // Corners and edges counter-clockwise from the lower left; edge i joins corners i and i + 1.
+      // Corners and edges are counted counter-clockwise from the lower left; edge i joins corners i and i
+      // + 1.
       const std::size_t at = y * s.columns + x;
       const std::array<double, 4> value{s.value[at], s.value[at + 1], s.value[at + s.columns + 1],
                                         s.value[at + s.columns]};

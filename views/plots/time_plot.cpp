@@ -133,7 +133,7 @@ double TimePlot::topOf(const Side& side, double atLeast, const QString& unit, QS
 
 void TimePlot::draw() {
   const QCPRange range = shown();
-  // One frame more on each side, so that lines reach the edges.
+  // One frame more on each side lets lines reach the edges.
   auto [from, to] = framesShown();
   if (from > buffer_.begin()) --from;
   if (to < end()) ++to;

@@ -14,7 +14,7 @@
 namespace trimtab::views {
 namespace {
 
-/// Takes lines of text over. Lines that are known already are not read again: a drag changes one of many.
+/// Takes lines of text over. Known lines are not read again, because a drag changes one of many.
 template <class Line, class Read>
 void take(std::vector<Line>& known, const TextLines& texts, std::optional<Line>& written, Read read) {
   if (written) known.push_back(*std::exchange(written, std::nullopt));

@@ -12,7 +12,7 @@
 namespace trimtab::views {
 namespace {
 
-/// A language of fuzzy-logic tools. Another one is another row.
+/// A language of fuzzy-logic tools is a row of the table below.
 struct Language {
   const char* ending;
   const char* name;

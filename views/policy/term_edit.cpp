@@ -37,7 +37,7 @@ bool takes(const PolicyTerm& term) {
   return false;
 }
 
-/// Any term as a trapezoid, roughly: what other shapes are made from.
+/// An outline is any term as a rough trapezoid, from which other shapes are made.
 struct Outline {
   double leftFoot, leftTop, rightTop, rightFoot;
   bool openLeft = false, openRight = false;

@@ -37,7 +37,7 @@ CullingController::CullingController(const Workplace& workplace, FrameController
   connect(&at_.viewport, &Viewport::depthMapRead, this, &CullingController::showDepthMap);
   connect(&at_.viewport, &Viewport::horizonRead, this, &CullingController::showHorizon);
   connect(&terrain_, &TerrainController::opened, this, &CullingController::forgetPicked);
-  // The outline is the picture of what the dock says, so it shows while the dock does. Reading a map back
+  // The outline draws what the dock says, so it shows while the dock does. Reading a map back
   // from GL costs time, so it is read only while it is seen.
   whenSeen(panel_, this, [this](bool seen) {
     frame_.setOutline(seen ? picked_ : std::nullopt);

@@ -15,7 +15,7 @@
 namespace trimtab::workbench {
 namespace {
 
-/// Distance from the eye to the farthest corner of the terrain.
+/// Returns the distance, metres, from the eye to the farthest corner of the terrain.
 double farthestM(const GeodeticPosition& eye, const terrain::TerrainInfo& info) {
   double farthest = 0;
   for (const Degrees latitude : {info.southWest.latitude, info.northEast.latitude})

@@ -18,7 +18,7 @@ QString tr(const char* text) {
   return QCoreApplication::translate("LogReading", text);
 }
 
-/// "latitude 46.5 to 46.6°"; empty if no row has the quantity.
+/// Returns a text such as "latitude 46.5 to 46.6°", which is empty if no row has the quantity.
 template <class Rows, class Value>
 QString rangeText(const QString& name, const Rows& rows, const QString& unit, int decimals,
                   const Value& value) {

@@ -20,11 +20,11 @@
 namespace trimtab::workbench {
 namespace {
 
-/// A picture that still builds tiles is drawn again, but not for ever.
+/// An image that still builds tiles is drawn again, but not for ever.
 constexpr int kMostWarmUp = 60;
 /// Decisions that a step is measured with at the most, for the progress bar.
 constexpr int kMostDecisions = 16;
-/// Space around the bars' labels.
+/// The height of the plot, pixels, leaves room for the labels around its bars.
 constexpr int kPlotHeight = 240;
 
 enum Column {

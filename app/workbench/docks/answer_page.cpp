@@ -31,7 +31,7 @@ class Number : public QTableWidgetItem {
   double value_;
 };
 
-/// Three digits, without a unit: the column names it.
+/// Returns a number with three digits and no unit, which its column names.
 QString digits(double value) {
   return views::textOf({{}, {}, {}, true}, value);
 }
@@ -44,7 +44,7 @@ QTableWidgetItem* percentileOf(double value, int needed) {
 }
 
 QTableWidgetItem* verdictOf(const harness::Answer& answer, std::size_t row) {
-  // Sorted by rank: the best, then what fits, then what may.
+  // The rows are sorted by rank: the best comes first, then what fits, then what may fit.
   const double rank = answer.isBest(row) ? -1 : double(answer.rows[row].fit);
   const QString words = QString::fromStdString(harness::verdictText(answer, row));
   return new Number(rank, answer.isBest(row) ? QStringLiteral("★ ") + words : words);

@@ -137,7 +137,7 @@ ErrorDock::ErrorDock(views::Draft& draft, DrawThread& thread, LiveMeter::Source 
   showResults();
 }
 
-/// Controls in a column on the left: the dock is wide and low.
+/// Puts the controls into a column on the left, because the dock is wide and low.
 void ErrorDock::arrange() {
   auto* controls = new QWidget(this);
   controls->setFixedWidth(kControlsPx);

@@ -50,7 +50,7 @@ QString p99Of(const SampleWindow& samples) {
 }
 
 /// Says the latency of the packets that images show, in that run's own frames, and of all packets.
-QString pictureText(const Latency& latency) {
+QString latencyText(const Latency& latency) {
   if (latency.shown.size() == 0) return kNone;
   const double shown = latency.shown.quantile(0.99), frame = latency.frame.median();
   return HostDock::tr("%1, %2 frames of %3  (overtaken packets too: %4)")
@@ -59,7 +59,7 @@ QString pictureText(const Latency& latency) {
       .arg(milliseconds(frame), milliseconds(latency.every.quantile(0.99)));
 }
 
-/// Says in one line why what came led to no state; empty if nothing came, or if all of it did.
+/// Says in one line why what came led to no state. The line is empty if nothing came, or if all of it did.
 QString unusedText(const HostStatistics& host, const link::Senders& senders) {
   const auto newest = [](const std::optional<Finding>& finding) {
     return QString::fromStdString(toString(finding.value_or(Finding{})));
@@ -85,7 +85,7 @@ QString unusedText(const HostStatistics& host, const link::Senders& senders) {
   return {};
 }
 
-/// Sixteen bytes a line with their offset.
+/// Returns the bytes in lines of sixteen, each with its offset.
 QString hexDump(const std::string& hex) {
   QString digits = QString::fromStdString(hex).remove(' ');
   QString dump;
@@ -165,8 +165,8 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
              tr("Packets that are missing in the host's frame numbers, without those that only came late"));
   age_ = addRow(*form, tr("Last packet"), tr("Age of the newest packet"));
   decoded_ = addRow(*form, tr("To decoded, p99"), tr("From the kernel's time stamp to the decoded state"));
-  picture_ = addRow(*form, tr("To image, p99"),
-                    tr("From the kernel's time stamp to the finished image that shows the packet"));
+  image_ = addRow(*form, tr("To image, p99"),
+                  tr("From the kernel's time stamp to the finished image that shows the packet"));
   counts_ = addRow(*form, tr("Packets"), {});
   jumps_ = addRow(*form, tr("Jumps"), tr("Position changes too large for any aircraft"));
   weather_ =
@@ -175,7 +175,7 @@ HostDock::HostDock(Feed& feed, views::Draft& draft, QWidget* parent)
                 "than rain and snow"));
   refused_ = addRow(*form, tr("Other senders"), tr("Packets that came from somebody who may not send"));
   bad_ = addRow(*form, tr("Bad packets"), tr("Packets that were refused; the first one is shown below"));
-  for (QLabel* wide : {state_, picture_, counts_, refused_, bad_}) wide->setWordWrap(true);
+  for (QLabel* wide : {state_, image_, counts_, refused_, bad_}) wide->setWordWrap(true);
   firstBad_->setReadOnly(true);
   firstBad_->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
   firstBad_->setLineWrapMode(QPlainTextEdit::NoWrap);
@@ -297,7 +297,7 @@ void HostDock::lookUp() {
   found_->setText(tr("Looking up %1 …").arg(name));
   QHostInfo::lookupHost(name, this, [this, name](const QHostInfo& host) {
     if (name != foundName_) return;
-    // As link::resolve: IPv4 comes first.
+    // IPv4 comes first, as in link::resolve.
     for (const auto protocol : {QAbstractSocket::IPv4Protocol, QAbstractSocket::IPv6Protocol})
       for (const QHostAddress& address : host.addresses())
         if (foundHost_.isNull() && address.protocol() == protocol) foundHost_ = address;
@@ -413,7 +413,7 @@ void HostDock::refresh() {
     loss_->setText(host.lost ? number(*host.lost) : kNone);
   age_->setText(any && std::isfinite(age) ? tr("%1 ago").arg(milliseconds(age * 1e3)) : kNone);
   decoded_->setText(any ? p99Of(session.latency().decoded) : kNone);
-  picture_->setText(any ? pictureText(session.latency()) : kNone);
+  image_->setText(any ? latencyText(session.latency()) : kNone);
   counts_->setText(any ? tr("%1 received, %2 states, %3 repeated, %4 late, %5 implausible, %6 dropped here")
                              .arg(number(host.received), number(host.states), number(host.repeated),
                                   number(host.reordered), number(host.implausible),

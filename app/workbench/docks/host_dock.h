@@ -66,7 +66,7 @@ class HostDock : public QWidget {
   QHostAddress foundHost_;  ///< its address; null if there is none
   QPushButton* connect_;
   HostChoicePanel* choice_;
-  QLabel *state_, *detected_, *rate_, *jitter_, *loss_, *age_, *decoded_, *picture_, *counts_, *jumps_, *bad_,
+  QLabel *state_, *detected_, *rate_, *jitter_, *loss_, *age_, *decoded_, *image_, *counts_, *jumps_, *bad_,
       *weather_, *refused_;
   QPlainTextEdit* firstBad_;
   QTimer refresh_;  ///< runs only while a link is open and the dock is visible

@@ -21,7 +21,7 @@
 namespace trimtab::workbench {
 namespace {
 
-/// The parameter's label with its unit.
+/// Returns the parameter's label with its unit.
 QString titleOf(const harness::SweepAxis& axis) {
   const ParameterRow* const row = findRow(axis.key);
   if (row == nullptr) return QString::fromStdString(axis.key);
@@ -43,7 +43,7 @@ QString nameOf(const harness::Sweep& sweep) {
            axes.join(QStringLiteral(" × ")));
 }
 
-/// The best rows of one sweep.
+/// Returns the best rows of one sweep.
 std::vector<std::size_t> bestIn(const harness::Sweep& sweep, const harness::Results& results,
                                 const harness::Answer& answer) {
   std::vector<std::size_t> rows;

@@ -71,7 +71,7 @@ class SeenBoxes : public QProxyStyle {
   }
 };
 
-/// The style of the program: that of the desktop, Fusion, or Fusion for dark colours.
+/// Makes the style of the program: that of the desktop, Fusion, or Fusion for dark colours.
 QStyle* styleOf(Appearance appearance, const QString& desktopStyle) {
   switch (appearance) {
     case Appearance::system:

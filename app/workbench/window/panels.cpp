@@ -44,7 +44,7 @@ void connectEditors(const views::ParameterTable& parameters, views::PolicyPanel&
                    });
 }
 
-/// The one question that each dock answers.
+/// Gives each dock the one question that it answers.
 void askQuestions(DockLayout& docks) {
   constexpr std::pair<const char*, const char*> kQuestions[] = {
       {"policy", QT_TRANSLATE_NOOP("QObject", "Which rules set the levers, and what is each lever worth?")},
