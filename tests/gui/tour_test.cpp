@@ -2,6 +2,7 @@
 #include <QSignalSpy>
 #include <QtWidgets>
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <tuple>
 
@@ -30,8 +31,8 @@ namespace trimtab::test {
 namespace {
 
 /// Does in one window what an engineer does in a day, task by task; methods of the program only look at what
-/// came of it. TRIMTAB_SHOTS names a folder for a screenshot of each task and of each workspace;
-/// TRIMTAB_SHOT_SIZE is WxH, TRIMTAB_SHOT_THEME light or dark.
+/// came of it. TRIMTAB_SHOTS names a folder for a screenshot of each task and of each workspace, and for
+/// those of the README; TRIMTAB_SHOT_SIZE is WxH, TRIMTAB_SHOT_THEME light or dark.
 class Tour : public Bench {
  protected:
   void SetUp() override {
@@ -71,6 +72,7 @@ class Tour : public Bench {
     }
     std::cout << table.toStdString() << std::flush;
     shootWorkspaces();
+    shootPages();
   }
   /// Saves a screenshot of each workspace as it ships, while the flight plays.
   void shootWorkspaces() {
@@ -79,8 +81,9 @@ class Tour : public Bench {
     hand_->press(*w().panels().plots, "Details");
     hand_->press(*w().panels().plots, "Pause");
     ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
-    w().feed().seekHere(60);
+    w().feed().seekHere(545);  // on final approach, with the airfield ahead
     w().feed().playHere();
+    EXPECT_FALSE(w().controllers().errors->splitView().overViewport()) << "left as it was before comparing";
     for (int i = 0; w().workspaces().ships(i); ++i) {
       w().workspaces().show(i);
       w().workspaces().reset();
@@ -89,6 +92,39 @@ class Tour : public Bench {
       shot_ = QStringLiteral("workspace-%1-%2.png").arg(i + 1).arg(name);
       shoot();
     }
+  }
+  /// Saves what the README shows: docks by themselves, and a frozen visible set from outside.
+  void shootPages() {
+    if (qEnvironmentVariable("TRIMTAB_SHOTS").isEmpty()) return;
+    workspace("Tune");
+    const auto shootDock = [this](const char* dock, const char* page, const char* file) {
+      front(dock);
+      hand_->press(*w().dock(dock), page);
+      QTest::qWait(1500);
+      const QString name = QString::fromLatin1(file);
+      EXPECT_TRUE(w().dock(dock)->grab().save(qEnvironmentVariable("TRIMTAB_SHOTS") + '/' + name)) << file;
+    };
+    EXPECT_TRUE(w().draft().setText("culling.occlusion", "depth_map").empty());
+    shootDock("policy", "Terms", "policy.png");
+    shootDock("culling", "Culling", "culling.png");
+    shootDock("culling", "Depth map", "depth-map.png");
+    w().feed().pauseHere();
+    trigger("Colour by reason");
+    trigger("Freeze culling");
+    EXPECT_TRUE(waitFor([this] { return banner().contains("FROZEN"); }) && settle());
+    workbench::FreeCamera& camera = w().viewport().camera();
+    // From 4 km behind the eye and 1.5 km above it, the frustum lies ahead.
+    const double heading = camera.attitude().heading.in<Radians>(), behindDeg = 4000 / 111000.0;
+    GeodeticPosition place = camera.position();
+    place.latitude = place.latitude - Degrees{behindDeg * std::cos(heading)};
+    place.longitude =
+        place.longitude - Degrees{behindDeg * std::sin(heading) / std::cos(place.latitude.in<Radians>())};
+    place.height = place.height + Metres{1500};
+    camera.place(place, {camera.attitude().heading, Degrees{-20}, Degrees{0}});
+    w().viewport().invalidate();
+    EXPECT_TRUE(settle());
+    shot_ = QStringLiteral("frozen.png");
+    shoot();
   }
   /// Saves the task's screenshot: at its end, unless the task has more to show before.
   void shoot() {
