@@ -12,10 +12,12 @@
 #include "app/harness/sweep.h"
 #include "app/harness/text.h"
 #include "app/link/log_options.h"
+#include "app/models/read_model.h"
 #include "commands.h"
 #include "progress.h"
 #include "settings.h"
 #include "trimtab/measure/trace.h"
+#include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/bake/cache.h"
 
 namespace trimtab::cli {
@@ -144,7 +146,9 @@ int run(const BenchOptions& arguments) {
   report(faults);
   bool usable = readFlights(arguments, plan);
   usable = readPresets(arguments, plan) && usable && faults.empty();
-  const auto terrain = terrain::openOrBake(arguments.terrain, terrain::cacheFolder(), plan.progress);
+  const auto terrain = terrain::openOrBake(arguments.terrain, terrain::cacheFolder(), plan.progress,
+                                           terrain::BakeOptions{}.trianglesPerNode,
+                                           terrain::ObjectsToBake{{}, models::readModel});
   report(terrain.findings());
   if (!terrain || !usable) return kRefused;
   plan.terrain = *terrain;

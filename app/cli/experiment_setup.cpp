@@ -1,4 +1,5 @@
 #include "experiment_setup.h"
+#include "app/models/read_model.h"
 
 #include <filesystem>
 
@@ -8,6 +9,7 @@
 #include "settings.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/bake/cache.h"
 #include "trimtab/terrain/format/database.h"
 
@@ -45,7 +47,9 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
     usable = head && usable;
     if (head) setup.hold.head = std::move(head).value();
   }
-  const auto terrain = terrain::openOrBake(arguments.terrain, terrain::cacheFolder(), setup.progress);
+  const auto terrain = terrain::openOrBake(arguments.terrain, terrain::cacheFolder(), setup.progress,
+                                           terrain::BakeOptions{}.trianglesPerNode,
+                                           terrain::ObjectsToBake{{}, models::readModel});
   report(terrain.findings());
   if (!terrain || !usable) return std::nullopt;
   setup.terrain = *terrain;

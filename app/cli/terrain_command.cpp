@@ -124,7 +124,8 @@ void addTerrain(CLI::App& app, int& exitCode) {
       ->add_option(
           "source", bake->sources,
           "DTED, .hgt, GeoTIFF and whatever else GDAL reads, or folders of them; or FlightGear scenery: "
-          "folders, .stg, .btg and .btg.gz")
+          "folders, .stg, .btg and .btg.gz; or OGC CDB 1.x: folders with Tiles, with their imagery and "
+          "features")
       ->required();
   makeBake->add_option("-o,--output", bake->output, "Folder of the database")->required();
   makeBake
@@ -180,10 +181,8 @@ void addTerrain(CLI::App& app, int& exitCode) {
     options.sources.assign(bake->sources.begin(), bake->sources.end());
     options.output = bake->output;
     if (!bake->imagery.empty()) options.imagery = bake->imagery;
-    if (!bake->objects.empty()) {
-      options.objects = bake->objects;
-      options.readModel = models::readModel;
-    }
+    if (!bake->objects.empty()) options.objects = bake->objects;
+    options.readModel = models::readModel;
     if (!bake->heightUnit.empty()) options.reading.heightUnit = terrain::metresPerUnit(bake->heightUnit);
     options.reading.ignoreChecksums = bake->ignoreChecksums;
     options.trianglesPerNode = bake->leafTriangles;
@@ -193,6 +192,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
     if (bake->maxErrorM) options.maxError = Metres{*bake->maxErrorM};
     options.memory = Megabytes{bake->memoryMb};
     options.progress = progressLines();
+    report(terrain::aboutSources(options.sources));
     if (!bake->part.empty()) {
       unsigned number = 0, parts = 0;
       int read = 0;

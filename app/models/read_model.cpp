@@ -52,9 +52,11 @@ terrain::SourceModel modelOf(osg::Node& node, const std::filesystem::path& file)
 
 Result<terrain::SourceModel> readModel(const std::filesystem::path& file) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    return unusable(file, "a model's file", error ? error.message() : "none");
-  if (const auto data = checkIsData(file); !data) return data.findings();
+  if (!file.string().starts_with("/vsizip/")) {
+    if (!std::filesystem::is_regular_file(file, error))
+      return unusable(file, "a model's file", error ? error.message() : "none");
+    if (const auto data = checkIsData(file); !data) return data.findings();
+  }
   if (!isModelName(file.string())) return unusable(file, "a model (" + modelFormats() + ")", "another file");
   if (osgDB::Registry::instance()->getReaderWriterForExtension(
           osgDB::getLowerCaseFileExtension(file.string())) == nullptr)

@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <vector>
 
+#include "app/models/open_flight.h"
 #include "app/models/read_model.h"
+#include "trimtab/terrain/cdb/models.h"
 
 namespace trimtab::models {
 
@@ -17,6 +20,32 @@ namespace {
 constexpr std::array<const char*, 11> kFormats{"flt", "ive", "osgb", "osgt", "osg", "3ds",
                                                "obj", "ac",  "dae",  "ply",  "stl"};
 constexpr std::size_t kMostDeep = 16, kMostFiles = 1000;
+
+using ReadResult = osgDB::ReaderWriter::ReadResult;
+
+bool isInArchive(const std::string& file) {
+  return file.starts_with("/vsizip/");
+}
+
+osgDB::ReaderWriter* readerOf(const std::string& file) {
+  return osgDB::Registry::instance()->getReaderWriterForExtension(osgDB::getLowerCaseFileExtension(file));
+}
+
+/// Reads a model from its bytes: one in an archive, and OpenFlight, whose levels need ranges first.
+ReadResult readBytes(const std::string& file, const osgDB::Options* options) {
+  osgDB::ReaderWriter* const reader = readerOf(file);
+  if (reader == nullptr) return ReadResult::FILE_NOT_HANDLED;
+  const std::string found = isInArchive(file) ? file : osgDB::findDataFile(file, options);
+  if (found.empty()) return ReadResult::FILE_NOT_FOUND;
+  auto bytes = terrain::bytesOfCdbFile(found);
+  if (!bytes) return ReadResult(bytes.findings().front().found);
+  const osg::ref_ptr<osgDB::Options> local =
+      options != nullptr ? options->cloneOptions() : new osgDB::Options;
+  local->getDatabasePathList().push_front(osgDB::getFilePath(found));
+  const bool flight = osgDB::getLowerCaseFileExtension(file) == "flt";
+  std::istringstream in(flight ? withRangesBySize(std::move(bytes).value()) : std::move(bytes).value());
+  return reader->readNode(in, local.get());
+}
 
 /// One name for a file, whatever way leads to it.
 std::string nameOf(const std::string& file, const osgDB::Options* options) {
@@ -38,6 +67,29 @@ std::string modelFormats() {
   for (const char* format : kFormats) all += (all.empty() ? "." : ", .") + std::string(format);
   return all;
 }
+
+ReadResult imageInArchive(const std::string& file, const osgDB::Options* options) {
+  osgDB::ReaderWriter* const reader = readerOf(file);
+  const auto bytes = terrain::bytesOfCdbFile(file);
+  if (reader == nullptr || !bytes) return ReadResult::ERROR_IN_READING_FILE;
+  std::istringstream in(*bytes);
+  return reader->readImage(in, options);
+}
+
+/// Finds textures of a CDB, whose level is often another one than the model names.
+class WatchedReads::Textures final : public osgDB::FindFileCallback {
+ public:
+  explicit Textures(std::string model) : model_(std::move(model)) {}
+  std::string findDataFile(const std::string& file, const osgDB::Options* options,
+                           osgDB::CaseSensitivity caseSensitivity) override {
+    std::string found = osgDB::FindFileCallback::findDataFile(file, options, caseSensitivity);
+    if (!found.empty() || isModelName(file)) return found;
+    return terrain::cdbTexture(file, model_).value_or("");
+  }
+
+ private:
+  std::string model_;
+};
 
 /// Stands between plugins and the files that they ask for.
 class WatchedReads::Files final : public osgDB::ReadFileCallback {
@@ -63,7 +115,9 @@ class WatchedReads::Files final : public osgDB::ReadFileCallback {
       return osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE;
     }
     open_.push_back(name);
-    auto result = osgDB::ReadFileCallback::readNode(file, options);
+    auto result = isInArchive(file) || osgDB::getLowerCaseFileExtension(file) == "flt"
+                      ? readBytes(file, options)
+                      : osgDB::ReadFileCallback::readNode(file, options);
     open_.pop_back();
     if (isReference && !result.validNode())
       watch_.add(Severity::warning, file, "a model that can be read, referred to", "none");
@@ -74,7 +128,8 @@ class WatchedReads::Files final : public osgDB::ReadFileCallback {
       watch_.add(Severity::warning, file, "a texture beside the model", "one on a network, not opened");
       return osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE;
     }
-    auto result = osgDB::ReadFileCallback::readImage(file, options);
+    auto result =
+        isInArchive(file) ? imageInArchive(file, options) : osgDB::ReadFileCallback::readImage(file, options);
     if (!result.validImage())
       watch_.add(Severity::warning, file,
                  "a texture that can be read, in the model's folder or where the model says",
@@ -112,10 +167,12 @@ void WatchedReads::add(Severity severity, const std::string& key, const std::str
 WatchedReads::WatchedReads(std::filesystem::path model)
     : model_(std::move(model)),
       files_(new Files(*this)),
+      findBefore_(osgDB::Registry::instance()->getFindFileCallback()),
       filesBefore_(osgDB::Registry::instance()->getReadFileCallback()),
       noticesBefore_(osg::getNotifyHandler()),
       levelBefore_(osg::getNotifyLevel()) {
   osgDB::Registry::instance()->setReadFileCallback(files_.get());
+  osgDB::Registry::instance()->setFindFileCallback(new Textures(model_.string()));
   osg::setNotifyHandler(new Notices(*this));
   osg::setNotifyLevel(osg::WARN);
 }
@@ -123,6 +180,7 @@ WatchedReads::WatchedReads(std::filesystem::path model)
 WatchedReads::~WatchedReads() {
   osg::setNotifyLevel(levelBefore_);
   osg::setNotifyHandler(noticesBefore_.get());
+  osgDB::Registry::instance()->setFindFileCallback(findBefore_.get());
   osgDB::Registry::instance()->setReadFileCallback(filesBefore_.get());
 }
 

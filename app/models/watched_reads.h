@@ -28,6 +28,7 @@ class WatchedReads {
  private:
   class Files;
   class Notices;
+  class Textures;
   /// Adds a finding, once.
   void add(Severity severity, const std::string& key, const std::string& expected, const std::string& found);
 
@@ -35,6 +36,7 @@ class WatchedReads {
   FindingList list_;
   std::set<std::string> said_;
   osg::ref_ptr<Files> files_;
+  osg::ref_ptr<osgDB::FindFileCallback> findBefore_;
   osg::ref_ptr<osgDB::ReadFileCallback> filesBefore_;
   osg::ref_ptr<osg::NotifyHandler> noticesBefore_;
   osg::NotifySeverity levelBefore_;

@@ -1,5 +1,6 @@
 #include "trimtab/host/placement_list.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -92,6 +93,13 @@ class PlacementRows {
 };
 
 }  // namespace
+
+std::string PlacementList::placeOf(std::size_t placement, const std::string& otherwise) const {
+  const auto after = std::partition_point(
+      tables.begin(), tables.end(), [&](const PlacementTable& table) { return table.first <= placement; });
+  return (after == tables.begin() ? otherwise : (after - 1)->where) + ':' +
+         std::to_string(placements[placement].line);
+}
 
 Result<PlacementList> readPlacementList(std::string_view text, const std::string& where) {
   Findings opened;

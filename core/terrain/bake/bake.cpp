@@ -6,6 +6,7 @@
 #include <future>
 #include <thread>
 
+#include "cdb.h"
 #include "ground.h"
 #include "heights.h"
 #include "objects.h"
@@ -123,12 +124,10 @@ class Job {
     if (auto may = mayTakePlace(); !may) return may;
     const auto files = sourceFiles(options_.sources);
     if (!files) return files.findings();
-    if (options_.objects) {
-      auto objects = readObjectSources(options_, memory_);
-      if (!objects) return objects.findings();
-      keep(objects.findings());
-      objects_ = std::move(objects).value();
-    }
+    auto objects = readObjectSources(options_, memory_);
+    if (!objects) return objects.findings();
+    keep(objects.findings());
+    objects_ = std::move(objects).value();
     recipe_ = recipeOf(options_, *files, objects_);
     auto work = WorkFolder::open(output_, stampedRecipe(options_, *files, objects_), use);
     if (!work) return work.findings();
@@ -177,12 +176,10 @@ class Job {
     ground.heights = file_.get();
     ground.geometry = geometry_.get();
     ground.memory = memory_ / 2;  // patches may be made beside it
-    if (options_.imagery) {
-      const auto images = imageryOver(*options_.imagery, heights_.posts);
-      keep(images.findings());
-      if (!images) return images.findings();
-      images_ = ground.images = *images;
-    }
+    const auto images = imagesOver(options_, heights_.posts);
+    keep(images.findings());
+    if (!images) return images.findings();
+    images_ = ground.images = *images;
     if (source_->tiles)
       ground.triangles =
           &materials_.emplace(*source_->tiles, heights_.posts.longitude((heights_.posts.columns - 1) / 2.0));
@@ -262,7 +259,7 @@ class Job {
   /// The slopes of all levels, and the colours, take so many bytes.
   std::size_t tileBytes() const {
     const std::size_t posts = heights_.posts.size(),
-                      images = (options_.imagery ? 1 : 0) + (source_->tiles ? 1 : 0);
+                      images = (images_.empty() ? 0 : 1) + (source_->tiles ? 1 : 0);
     return posts * 4 / 3 + images * posts * 4;
   }
   /// Nodes, slopes and colours of tiles, where the grid has them.
@@ -280,7 +277,7 @@ class Job {
     auto colours = source_->image(stage(Stage::tiles, 0.7, 0.85));
     if (!colours) return colours.findings();
     std::vector<std::uint8_t> image = std::move(colours).value();
-    if (options_.imagery) {
+    if (!images_.empty()) {
       auto read = readImagery(images_, posts, stage(Stage::tiles, 0.85, 1));
       if (!read) return read.findings();
       drape(std::move(read).value(), image);
@@ -341,6 +338,7 @@ class Job {
     if (!objects) return objects.findings();
     keep(objects.findings());
     if (auto read = allRead(); !read) return read;
+    if (objects->index.instances.empty()) return Done{};
     const fs::path file = work_->database() / kObjectsName;
     const auto sum = writeObjects(file, *objects);
     if (!sum) return sum.findings();
@@ -383,7 +381,7 @@ class Job {
     info.highest = Metres{heights_.highest};
     info.voidsFilled = heights_.voids;
     info.scenery = source_->scenery;
-    info.hasImage = hasImage_ || options_.imagery;
+    info.hasImage = hasImage_ || !images_.empty();
     std::sort(files_.begin(), files_.end(),
               [](const FileEntry& a, const FileEntry& b) { return a.name < b.name; });
     if (auto written =

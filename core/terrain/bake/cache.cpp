@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <set>
 
+#include "cdb.h"
 #include "source.h"
 #include "trimtab/host/placement_list.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/bake/cache.h"
+#include "trimtab/terrain/cdb/catalogue.h"
 #include "trimtab/terrain/elevation/files.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/format/store.h"
@@ -56,7 +58,9 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   std::string key = "v" + std::to_string(kFormatVersion) + " b" + std::to_string(kBuilderVersion);
   if (scenery) key += " n" + std::to_string(trianglesPerNode);
   for (const std::string& stamp : stampsOf(*files)) key += '\n' + stamp;
-  if (objects) {
+  if (isCdb(source))
+    for (const std::string& stamp : cdbStamps(source)) key += '\n' + stamp;
+  if (objects && !objects->list.empty()) {
     const auto more = keyOf(objects->list);
     if (!more) return more.findings();
     key += *more;
@@ -73,7 +77,7 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   options.trianglesPerNode = trianglesPerNode;
   options.progress = progress;
   if (objects) {
-    options.objects = objects->list;
+    if (!objects->list.empty()) options.objects = objects->list;
     options.readModel = objects->readModel;
   }
   // Nobody named a bound: scenery, whose trees are made in memory, may have half of the machine.

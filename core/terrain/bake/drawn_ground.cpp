@@ -102,7 +102,8 @@ Result<Done> standOnDrawnGround(PlacementList& list, const PatchTerrain& patches
     const LeafPage leaf(index, number, std::move(read).value());
     for (const PostedPlacement& p : block->second)
       if (const auto point = leaf.pointAt(p.column, p.row))
-        list.placements[p.number].height = index.frame.toGeodetic(*point).height;
+        list.placements[p.number].height =
+            index.frame.toGeodetic(*point).height + list.placements[p.number].aboveGround;
   }
   return Done{};
 }

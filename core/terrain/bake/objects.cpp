@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "cdb.h"
 #include "drawn_ground.h"
 #include "trimtab/preset/file_io.h"
+#include "trimtab/terrain/cdb/features.h"
 #include "trimtab/terrain/format/page_file.h"
 #include "trimtab/terrain/format/patch_store.h"
 #include "trimtab/terrain/format/store.h"
@@ -11,6 +13,7 @@
 #include "trimtab/terrain/grid/parallel.h"
 #include "trimtab/terrain/objects/build_model.h"
 #include "trimtab/terrain/objects/build_objects.h"
+#include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
 
@@ -51,29 +54,92 @@ void addAsWarnings(const Findings& some, Findings& all) {
   }
 }
 
-}  // namespace
-
-Result<ObjectSources> readObjectSources(const BakeOptions& options, std::size_t memory) {
-  ObjectSources sources;
-  sources.file = *options.objects;
-  const std::string where = sources.file.string();
-  if (!options.readModel) return Finding{Severity::error, where, "", "a reader of models", "none"};
-  const auto text = readWhole(sources.file, kLargestRecording);
+/// Reads the list of placements that a person named.
+Result<Done> addList(const std::filesystem::path& file, ObjectSources& sources,
+                     std::vector<CdbModel>& files) {
+  const auto text = readWhole(file, kLargestRecording);
   if (!text) return text.findings();
-  sources.sum = checksum(*text);
-  auto list = readPlacementList(*text, where);
+  auto list = readPlacementList(*text, file.string());
   if (!list) return list.findings();
+  sources.file = file;
+  sources.required = true;
+  sources.sum = checksum(*text);
   Findings findings = list.findings();
   sources.list = std::move(list).value();
+  sources.list.tables.push_back({file.string(), 0});
+  for (const std::string& name : sources.list.models) files.push_back({(file.parent_path() / name).string()});
+  return Result<Done>(Done{}, std::move(findings));
+}
+
+/// Appends the features of a CDB.
+void addFeatures(const std::filesystem::path& folder, ObjectSources& sources, std::vector<CdbModel>& files,
+                 Findings& findings) {
+  const auto cdb = openCdb(folder);
+  if (!cdb) return;  // elevation reports it
+  CdbFeatures features = readCdbFeatures(*cdb, findings);
+  if (features.list.placements.empty()) return;
+  if (sources.file.empty()) sources.file = folder;
+  PlacementList& all = sources.list;
+  const auto firstModel = static_cast<std::uint32_t>(all.models.size());
+  for (PlacementTable& table : features.list.tables)
+    all.tables.push_back({std::move(table.where), table.first + all.placements.size()});
+  std::string bytes = std::to_string(sources.sum);
+  for (ListedPlacement p : features.list.placements) {
+    bytes += '\n' + features.list.models[p.model];
+    for (const double value : {p.latitude.value(), p.longitude.value(), p.height.value_or(Metres{}).value(),
+                               p.aboveGround.value(), p.heading.value(), p.scale, p.height ? 1.0 : 0.0})
+      bytes += ' ' + numberText(value);
+    p.model += firstModel;
+    all.placements.push_back(p);
+  }
+  sources.sum = checksum(bytes);
+  all.models.insert(all.models.end(), features.list.models.begin(), features.list.models.end());
+  files.insert(files.end(), features.models.begin(), features.models.end());
+}
+
+/// Makes a model wider, longer and higher; normals stay upright to its surfaces.
+void stretch(SourceModel& model, const std::array<double, 3>& by) {
+  for (SourceMesh& mesh : model.levels)
+    for (SourceVertex& v : mesh.vertices)
+      for (std::size_t k = 0; k < 3; ++k) {
+        v.position[k] *= static_cast<float>(by[k]);
+        v.normal[k] /= static_cast<float>(by[k]);
+      }
+}
+
+}  // namespace
+
+Result<std::optional<ObjectSources>> readObjectSources(const BakeOptions& options, std::size_t memory) {
+  ObjectSources sources;
+  std::vector<CdbModel> files;
+  Findings findings;
+  if (options.objects) {
+    auto read = addList(*options.objects, sources, files);
+    findings = read.findings();
+    if (!read) return findings;
+  }
+  for (const std::filesystem::path& cdb : cdbsAmong(options.sources))
+    addFeatures(cdb, sources, files, findings);
+  if (sources.list.placements.empty())
+    return Result<std::optional<ObjectSources>>(std::nullopt, std::move(findings));
+  const std::string where = sources.file.string();
+  if (!options.readModel) {
+    findings.push_back({options.objects ? Severity::error : Severity::warning, where, "",
+                        "a reader of models", "none: nothing stands on the ground"});
+    if (options.objects) return findings;
+    return Result<std::optional<ObjectSources>>(std::nullopt, std::move(findings));
+  }
   // A row is held as it was read, sorted, and as the file has it: a million of them take 180 MB beyond what
   // the bake takes without. Models are held as read, as triangles apart, and as levels.
   constexpr std::size_t kBytesPerRow = 300, kFormsOfModel = 4;
   std::size_t bytes = sources.list.placements.size() * kBytesPerRow;
   bool any = false;
-  for (const std::string& name : sources.list.models) {
-    auto model = options.readModel(sources.file.parent_path() / name);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string& name = sources.list.models[i];
+    auto model = options.readModel(files[i].file);
     addAsWarnings(model.findings(), findings);
     sources.models.emplace_back();
+    if (model) stretch(*model, files[i].stretch);
     sources.modelSums.push_back(model ? checksumOf(*model) : 0);
     if (model) {
       bytes += bytesOf(*model) * kFormsOfModel;
@@ -89,10 +155,12 @@ Result<ObjectSources> readObjectSources(const BakeOptions& options, std::size_t 
               ", which take " + std::to_string(bytes / 1000000) + " MB"};
   }
   if (!any) {
-    findings.push_back({Severity::error, where, "model", "at least one model that can be read", "none"});
-    return findings;
+    findings.push_back({options.objects ? Severity::error : Severity::warning, where, "model",
+                        "at least one model that can be read", "none"});
+    if (options.objects) return findings;
+    return Result<std::optional<ObjectSources>>(std::nullopt, std::move(findings));
   }
-  return Result<ObjectSources>(std::move(sources), std::move(findings));
+  return Result<std::optional<ObjectSources>>(std::move(sources), std::move(findings));
 }
 
 Result<ObjectTerrain> bakeObjects(ObjectSources& sources, const HeightSource& heights,
@@ -120,8 +188,17 @@ Result<ObjectTerrain> bakeObjects(ObjectSources& sources, const HeightSource& he
   if (!done) return cancelled("levels of models");
   Findings findings;
   for (const Findings& some : about) addAsWarnings(some, findings);
-  auto objects = buildObjects(built, sources.list, BakedGround(heights), frame, sources.file.string(),
-                              stageOf(progress, 0.8, 1));
+  bool stopped = false;
+  const Progress watched = [&](double share, const std::string& what) {
+    stopped = progress && !stageOf(progress, 0.8, 1)(share, what);
+    return !stopped;
+  };
+  auto objects =
+      buildObjects(built, sources.list, BakedGround(heights), frame, sources.file.string(), watched);
+  if (!objects && !sources.required && !stopped) {
+    addAsWarnings(objects.findings(), findings);
+    return Result<ObjectTerrain>(ObjectTerrain{}, std::move(findings));
+  }
   findings.insert(findings.end(), objects.findings().begin(), objects.findings().end());
   if (!objects) return findings;
   return Result<ObjectTerrain>(std::move(objects).value(), std::move(findings));

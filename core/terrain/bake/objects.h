@@ -18,18 +18,21 @@ namespace trimtab::terrain {
 
 /// What objects of a bake are made from: the placements, and the models that they name.
 struct ObjectSources {
-  std::filesystem::path file;  ///< of the placements
-  std::uint64_t sum = 0;       ///< checksum of their text
+  std::filesystem::path file;  ///< of the placements, or a CDB with features
+  bool required = false;       ///< a person named a list of them: it is an error if nothing can be placed
+  std::uint64_t sum = 0;       ///< checksum of what they say
   PlacementList list;
   std::vector<std::optional<SourceModel>> models;  ///< one per name of the list; none if it cannot be read
   std::vector<std::uint64_t> modelSums;            ///< of what each holds; 0 for none
 };
 
-/// Reads placements and models. A model that cannot be read is a warning; none at all is an error, and so is
-/// more of them than `memory` bytes hold while they are placed.
-Result<ObjectSources> readObjectSources(const BakeOptions& options, std::size_t memory);
+/// Reads placements and models: of the list that the options name, and of the features of each CDB among the
+/// sources. Returns none if there are no placements. A model that cannot be read is a warning. None at all is
+/// an error if a list was named, and so is more of them than `memory` bytes hold while they are placed.
+Result<std::optional<ObjectSources>> readObjectSources(const BakeOptions& options, std::size_t memory);
 
-/// Makes levels of all models and puts them on the ground: `patches`, the finished file of a database with
+/// Makes levels of all models and puts them on the ground; nothing, with warnings, if nothing of a CDB can be
+/// placed: `patches`, the finished file of a database with
 /// the baked `heights`, says where it is drawn. Takes the models out of `sources`.
 Result<ObjectTerrain> bakeObjects(ObjectSources& sources, const HeightSource& heights,
                                   const std::filesystem::path& patches, const LocalFrame& frame,

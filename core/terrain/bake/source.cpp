@@ -10,12 +10,12 @@
 #include <set>
 
 #include "arithmetic.h"
+#include "cdb.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/elevation/files.h"
 #include "trimtab/terrain/elevation/georeference.h"
 #include "trimtab/terrain/format/store.h"
 #include "trimtab/terrain/grid/progress.h"
-#include "trimtab/terrain/ground/imagery.h"
 #include "trimtab/terrain/scenery/made.h"
 #include "trimtab/terrain/scenery/memory.h"
 #include "trimtab/terrain/scenery/merge.h"
@@ -215,9 +215,8 @@ std::string stampedRecipe(const BakeOptions& options, const std::vector<fs::path
   recipe["builder"] = kBuilderVersion;
   recipe[kArithmetic] = arithmeticOfThisMachine();
   std::vector<fs::path> all = files;
-  if (options.imagery)
-    if (const auto images = imageryFiles(*options.imagery))
-      all.insert(all.end(), images->begin(), images->end());
+  const std::vector<fs::path> images = imageFiles(options);
+  all.insert(all.end(), images.begin(), images.end());
   recipe["stamps"] = stampsOf(all);
   return dump(recipe);
 }

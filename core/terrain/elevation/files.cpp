@@ -9,6 +9,7 @@
 #include "file_kind.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/stop_request.h"
+#include "trimtab/terrain/cdb/catalogue.h"
 #include "trimtab/terrain/elevation/georeference.h"
 
 namespace trimtab::terrain {
@@ -108,6 +109,17 @@ void findIn(const fs::path& folder, std::vector<ElevationPath>& files, Findings&
                              "none of " + std::to_string(inside.size()) + " files"));
 }
 
+/// The tiles of a CDB: its folders say which are elevation.
+void takeCdb(const fs::path& folder, std::vector<ElevationPath>& files, Findings& findings) {
+  const auto cdb = openCdb(folder);
+  findings.insert(findings.end(), cdb.findings().begin(), cdb.findings().end());
+  if (!cdb) return;
+  const auto tiles = cdbRasters(*cdb, CdbSet::kElevation);
+  findings.insert(findings.end(), tiles.findings().begin(), tiles.findings().end());
+  if (!tiles) return;
+  for (const fs::path& tile : *tiles) files.push_back({tile, false, false});
+}
+
 /// A file that the user named. A container gives its elevation.
 void take(const fs::path& file, std::vector<ElevationPath>& files, Findings& findings) {
   const GdalErrors quiet;
@@ -131,7 +143,9 @@ Result<std::vector<ElevationPath>> elevationPaths(std::span<const fs::path> sour
   for (const fs::path& source : sources) {
     std::error_code error;
     const fs::file_status status = fs::status(source, error);
-    if (fs::is_directory(status))
+    if (fs::is_directory(status) && isCdb(source))
+      takeCdb(source, files, findings);
+    else if (fs::is_directory(status))
       findIn(source, files, findings);
     else if (fs::exists(status))
       take(source, files, findings);

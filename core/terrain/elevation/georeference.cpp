@@ -11,6 +11,7 @@
 #include "evidence.h"
 #include "file_kind.h"
 #include "trimtab/preset/file_io.h"
+#include "trimtab/terrain/cdb/tile.h"
 #include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
@@ -247,6 +248,36 @@ Result<Done> isOneFile(const fs::path& file) {
   return Done{};
 }
 
+/// Places a CDB's tile by its name, which counts more than what the raster says of its place: programs that
+/// copy tiles leave that as it was. Posts of elevation stand at the south-west corners of their cells, pixels
+/// of others fill theirs. Returns none if the name is none of a tile, or the raster has another size than its
+/// level. The finding says whether the raster contradicts its name.
+std::optional<std::pair<std::array<double, 6>, std::optional<Finding>>> placedByName(const fs::path& file,
+                                                                                     GDALDataset& data) {
+  const auto name = cdbNameOf(file.stem().string());
+  if (!name || !name->rest.empty() || data.GetRasterXSize() != name->tile.side() ||
+      data.GetRasterYSize() != name->tile.side())
+    return {};
+  const CdbExtent extent = name->tile.extent();
+  const double side = name->tile.side(), width = extent.width / side, height = extent.height / side,
+               half = name->tile.set == CdbSet::kElevation ? 0.5 : 0;
+  const std::array<double, 6> placed{
+      extent.west - half * width, width, 0, extent.south + extent.height - half * height, 0, -height};
+  constexpr double kSamePlace = 0.01;  // of a pixel
+  std::array<double, 6> told{};
+  if (data.GetGeoTransform(told.data()) == CE_None)
+    for (const double end : {0.0, side}) {
+      const double x = told[0] + told[1] * end + told[2] * end, y = told[3] + told[4] * end + told[5] * end,
+                   east = placed[0] + width * end, north = placed[3] - height * end;
+      if (std::abs(x - east) > kSamePlace * width || std::abs(y - north) > kSamePlace * height)
+        return std::pair{placed, std::optional(about(Severity::warning, file, "georeference",
+                                                     "the place that its name says, " + numberText(east, 9) +
+                                                         ", " + numberText(north, 9) + ": used",
+                                                     numberText(x, 9) + ", " + numberText(y, 9)))};
+    }
+  return std::pair{placed, std::optional<Finding>()};
+}
+
 }  // namespace
 
 Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, RasterKind kind) {
@@ -272,6 +303,11 @@ Result<PlacedRaster> openRaster(const fs::path& file, GdalErrors& errors, Raster
     return about(Severity::error, file, "band 1", "heights", *image + ", which can be draped over elevation");
   errors.moveTo(notes, file.string(), Severity::warning);
   opened.columns = opened.data->GetRasterXSize();
+  if (auto named = placedByName(file, *opened.data)) {
+    opened.transform = named->first;
+    if (named->second) notes.push_back(*std::move(named->second));
+    return Result<PlacedRaster>(std::move(opened), std::move(notes));
+  }
   const OGRSpatialReference* crs = opened.data->GetSpatialRef();
   if (opened.data->GetGeoTransform(opened.transform.data()) != CE_None) {
     const int points = opened.data->GetGCPCount();

@@ -348,7 +348,7 @@ Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const fs::path>
       findings.push_back(std::move(finding));
     }
     if (stopped) return findings;
-    if (!path.named) found.insert(path.file.string());
+    if (!path.named && path.weighed) found.insert(path.file.string());
     if (file)
       files.push_back(std::move(file).value());
     else
@@ -366,8 +366,13 @@ Result<std::unique_ptr<ElevationSource>> openElevation(std::span<const fs::path>
     }
   }
   if (files.empty()) {
-    findings.push_back({Severity::error, "elevation", "", "a file with heights",
-                        "none of " + std::to_string(paths->size()) + " rasters"});
+    // Of several CDBs one has the ground, others what stands on it.
+    findings.push_back(
+        paths->empty()
+            ? Finding{Severity::error, sources.empty() ? "elevation" : sources.front().string(), "elevation",
+                      "a CDB that has some (Tiles/.../001_Elevation)", "none: name one that has it too"}
+            : Finding{Severity::error, "elevation", "", "a file with heights",
+                      "none of " + std::to_string(paths->size()) + " rasters"});
     return findings;
   }
   std::stable_sort(files.begin(), files.end(),

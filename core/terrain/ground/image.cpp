@@ -1,5 +1,6 @@
 #include "trimtab/terrain/ground/image.h"
 
+#include <cpl_string.h>
 #include <gdal_utils.h>
 
 #include <algorithm>
@@ -100,6 +101,22 @@ std::vector<std::string> wordsFor(GDALDataset& data, Alpha alpha) {
   return words;
 }
 
+/// Returns what says where a raster is, if it does not say so itself: what warps it asks it. Empty otherwise.
+std::vector<std::string> placeFor(const PlacedRaster& file) {
+  std::array<double, 6> told{};
+  const bool has = file.data->GetGeoTransform(told.data()) == CE_None;
+  if ((has && told == file.transform) || (!has && file.data->GetGCPCount() > 0)) return {};
+  const auto text = [](double value) { return std::string(CPLSPrintf("%.17g", value)); };
+  const auto& at = file.transform;
+  return {"-a_srs",
+          "EPSG:4326",
+          "-a_ullr",
+          text(at[0]),
+          text(at[3]),
+          text(at[0] + at[1] * file.data->GetRasterXSize()),
+          text(at[3] + at[5] * file.data->GetRasterYSize())};
+}
+
 /// Returns the bands that are wanted in order, nothing copied.
 Dataset inOrder(GDALDataset& data, std::vector<std::string> words) {
   words.insert(words.begin(), {"-of", "VRT"});
@@ -134,7 +151,9 @@ Result<std::unique_ptr<Picture>> openPicture(const fs::path& file, GdalErrors& e
                             "values between, as of infrared: this band is left out"));
   }
   picture->alpha = *known;
-  if (const auto words = wordsFor(data, *known); !words.empty()) {
+  auto words = wordsFor(data, *known);
+  for (std::string& word : placeFor(picture->file)) words.push_back(std::move(word));
+  if (!words.empty()) {
     picture->bands = inOrder(data, words);
     if (!picture->bands)
       return about(Severity::error, file, "", "bands of red, green and blue",

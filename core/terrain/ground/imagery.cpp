@@ -8,6 +8,7 @@
 
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/stop_request.h"
+#include "trimtab/terrain/cdb/catalogue.h"
 #include "trimtab/terrain/elevation/gdal_errors.h"
 #include "trimtab/terrain/grid/parallel.h"
 #include "trimtab/terrain/grid/post_grid.h"
@@ -40,6 +41,14 @@ Result<std::vector<fs::path>> imageryFiles(const fs::path& imagery) {
   useGdal();
   std::error_code error;
   if (!fs::is_directory(imagery, error)) return std::vector<fs::path>{imagery};
+  if (isCdb(imagery)) {
+    const auto cdb = openCdb(imagery);
+    if (!cdb) return cdb.findings();
+    auto tiles = cdbRasters(*cdb, CdbSet::kImagery);
+    if (tiles && tiles->empty())
+      return aboutImagery(Severity::error, imagery, "a CDB with imagery (Tiles/.../004_Imagery)", "none");
+    return tiles;
+  }
   std::set<fs::path> inside;
   const auto visited = visitFiles(imagery, [&](const fs::path& file) { return inside.insert(file).second; });
   if (!visited) return visited.findings();
@@ -63,7 +72,7 @@ Result<std::vector<fs::path>> imageryOver(const fs::path& imagery, const PostGri
   std::error_code error;
   if (!files || !fs::is_directory(imagery, error)) return files;
   std::vector<fs::path> over;
-  Findings findings;
+  Findings findings = files.findings();
   std::size_t elsewhere = 0;
   for (const fs::path& file : *files) {
     const auto image = GroundImage::open(file);

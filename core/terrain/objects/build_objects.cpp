@@ -43,17 +43,16 @@ Result<std::vector<std::uint32_t>> packModels(std::span<const std::optional<Buil
   return numbers;
 }
 
-Finding tooLarge(const std::string& where, const ListedPlacement& p, const ModelExtent& model) {
-  return {Severity::warning, where + ':' + std::to_string(p.line), "scale",
+Finding tooLarge(const std::string& place, const ListedPlacement& p, const ModelExtent& model) {
+  return {Severity::warning, place, "scale",
           "an object that reaches at most " + numberText(double{ObjectLimits::kRadiusM}) +
               " m from its origin; it is left out",
           numberText(model.radiusM * p.scale, 3) + " m at a scale of " + numberText(p.scale)};
 }
 
-Finding offTheGround(const std::string& where, const ListedPlacement& p) {
+Finding offTheGround(const std::string& place, const ListedPlacement& p) {
   return {
-      Severity::warning, where + ':' + std::to_string(p.line), "",
-      "a place on the terrain; the object is left out",
+      Severity::warning, place, "", "a place on the terrain; the object is left out",
       "latitude " + numberText(p.latitude.value(), 9) + ", longitude " + numberText(p.longitude.value(), 9)};
 }
 
@@ -83,15 +82,17 @@ Result<ObjectTerrain> buildObjects(std::span<const std::optional<BuiltModel>> mo
       continue;
     }
     if (extents[(*numbers)[p.model]].radiusM * p.scale > double{ObjectLimits::kRadiusM}) {
-      findings.add(Severity::warning, [&] { return tooLarge(where, p, extents[(*numbers)[p.model]]); });
+      findings.add(Severity::warning,
+                   [&] { return tooLarge(list.placeOf(i, where), p, extents[(*numbers)[p.model]]); });
       continue;
     }
     const std::optional<Metres> onGround = ground.heightAt(p.latitude, p.longitude);
     if (!onGround) {
-      findings.add(Severity::warning, [&] { return offTheGround(where, p); });
+      findings.add(Severity::warning, [&] { return offTheGround(list.placeOf(i, where), p); });
       continue;
     }
-    const GeodeticPosition position{p.latitude, wrapped180(p.longitude), p.height.value_or(*onGround)};
+    const GeodeticPosition position{p.latitude, wrapped180(p.longitude),
+                                    p.height.value_or(*onGround + p.aboveGround)};
     placed.push_back({frame.fromGeodetic(position), quantisedTurn(standing(frame, p)),
                       static_cast<float>(p.scale), (*numbers)[p.model]});
   }

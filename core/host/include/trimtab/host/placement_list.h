@@ -19,11 +19,23 @@ struct ListedPlacement {
   double scale = 1;
   std::uint32_t model = 0;  ///< its number in PlacementList::models
   std::uint32_t line = 0;
+  Metres aboveGround{};  ///< how much higher than the ground it stands, if `height` is unset
+};
+
+/// A text or table from which placements were read.
+struct PlacementTable {
+  std::string where;
+  std::size_t first = 0;  ///< its first placement; those of the next table follow
 };
 
 struct PlacementList {
   std::vector<std::string> models;  ///< as the text names them, in the order of their first rows
   std::vector<ListedPlacement> placements;
+  /// In the order of their placements; empty: one, which the caller names.
+  std::vector<PlacementTable> tables{};
+
+  /// Names a placement for findings, "TABLE:LINE"; `otherwise` is the table if the list names none.
+  std::string placeOf(std::size_t placement, const std::string& otherwise) const;
 };
 
 /// Limits of a row; the latitude and longitude are those of every place.

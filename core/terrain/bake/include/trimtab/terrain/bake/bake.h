@@ -17,12 +17,13 @@
 namespace trimtab::terrain {
 
 struct BakeOptions {
-  std::vector<std::filesystem::path> sources;    ///< elevation files, folders of them, or scenery
+  /// Elevation files, folders of them, scenery, or CDBs, whose imagery and features are baked too.
+  std::vector<std::filesystem::path> sources;
   std::optional<std::filesystem::path> imagery;  ///< a georeferenced image, or a folder of them
   /// A list of where objects stand (trimtab/host/placement_list.h), which names the files of their models
   /// relative to its own folder. Rows and models that cannot be used are left out, with warnings.
   std::optional<std::filesystem::path> objects;
-  /// Reads the file of a model; `objects` needs it. app/models has one.
+  /// Reads the file of a model; `objects` needs it, and so do features of a CDB. app/models has one.
   std::function<Result<SourceModel>(const std::filesystem::path&)> readModel;
   Reading reading;                        ///< how elevation files are read
   std::uint32_t trianglesPerNode = 2000;  ///< of the static LOD, if a source is scenery
@@ -39,6 +40,9 @@ struct BakeOptions {
   std::filesystem::path output;
   Progress progress;
 };
+/// Returns notes of what each CDB among the sources holds, and of what is not drawn of it. Reads its tables.
+Findings aboutSources(const std::vector<std::filesystem::path>& sources);
+
 /// Bakes the sources and opens the database. The bake works in a folder beside `output` (".NAME.work") and
 /// renames its result to `output` when it is complete. If a bake is interrupted, the folder stays: the same
 /// sources and options continue from it and yield the same bytes, others begin anew. Only one bake of an

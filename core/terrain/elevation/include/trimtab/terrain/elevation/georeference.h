@@ -21,11 +21,12 @@ Dataset owned(GDALDataset* dataset);
 
 struct PlacedRaster {
   Dataset data;
-  std::array<double, 6> transform{};  ///< GDAL's: pixel corners to the CRS
-  OGRSpatialReference crs;            ///< horizontal; axes as easting, northing or longitude, latitude
+  /// GDAL's: pixel corners to the CRS. A CDB's tile stands where its name says, and `data` may say otherwise.
+  std::array<double, 6> transform{};
+  OGRSpatialReference crs;  ///< horizontal; axes as easting, northing or longitude, latitude
   /// Columns that are used, from the first; all, unless the raster goes more than once round the earth.
   int columns = 0;
-  std::string name;                   ///< by which GDAL opens it
+  std::string name;  ///< by which GDAL opens it
 };
 
 /// Says what a raster is opened for; `heights` refuses images.

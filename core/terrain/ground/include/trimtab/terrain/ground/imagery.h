@@ -10,8 +10,9 @@
 
 namespace trimtab::terrain {
 
-/// Lists the files of imagery: the file itself, or of a folder every raster inside, sorted. Refuses a path
-/// where nothing is, and a folder without rasters.
+/// Lists the files of imagery: the file itself, or of a folder every raster inside, sorted; of a CDB its tiles
+/// of imagery that show somewhere, finest first. Refuses a path where nothing is, and a folder without
+/// rasters.
 Result<std::vector<std::filesystem::path>> imageryFiles(const std::filesystem::path& imagery);
 
 /// Lists those of imageryFiles that may cover some of the posts. Of a folder, files that cannot be drawn are
