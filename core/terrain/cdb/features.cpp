@@ -18,6 +18,7 @@ namespace {
 constexpr int kAirportLights = 4, kOtherLights = 5;
 /// Scales that differ by less are one.
 constexpr double kSameScale = 1e-3;
+constexpr double kMostSubcode = 999;
 /// So many models are stretched in different ways; each is another model in flight.
 constexpr std::size_t kMostStretched = 1000;
 
@@ -137,13 +138,15 @@ class FeaturePlacer {
 
   /// Returns the model that a row's attributes name; none, counted, if it is not there.
   std::optional<std::string> modelOf(const CdbFile& table, const CdbRow& row, const Attributes& attributes) {
-    const CdbModelName name{attributes.text("FACC"), static_cast<int>(attributes.number("FSC", 0)),
-                            attributes.text("MODL")};
-    if (name.model.empty() || name.facc.empty()) {
-      const std::string& unnamed = row.text("CNAM");
-      ++features_.withoutModel["no MODL and FACC for " + (unnamed.empty() ? "a row without CNAM" : unnamed)];
+    const double subcode = attributes.number("FSC", 0);
+    const std::string &facc = attributes.text("FACC"), &model = attributes.text("MODL"),
+                      &unnamed = row.text("CNAM");
+    if (model.empty() || facc.empty() || !(subcode >= 0 && subcode <= kMostSubcode)) {
+      ++features_
+            .withoutModel["no FACC, FSC and MODL for " + (unnamed.empty() ? "a row without CNAM" : unnamed)];
       return {};
     }
+    const CdbModelName name{facc, static_cast<int>(subcode), model};
     const auto file = table.tile.set == CdbSet::kTypicalFeatures
                           ? models_.typical(name)
                           : models_.specific(table.tile, (*row.point)[0], (*row.point)[1],

@@ -13,6 +13,7 @@
 #include <set>
 
 #include "trimtab/preset/file_io.h"
+#include "versions.h"
 
 namespace trimtab::terrain {
 
@@ -87,33 +88,42 @@ fs::path folderOfModel(const std::string& model) {
       .parent_path();
 }
 
+/// Returns a folder of a CDB and the same one in the versions that its root replaces.
+std::vector<fs::path> inVersions(const fs::path& folder) {
+  std::vector<fs::path> all{folder};
+  for (fs::path part = folder; part.has_relative_path(); part = part.parent_path()) {
+    if (part.filename() != "GTModel" && part.filename() != "Tiles") continue;
+    const fs::path root = part.parent_path(), below = folder.lexically_relative(root);
+    FindingList said;  // by the catalogue
+    for (const fs::path& version : cdbVersions(root, said))
+      if (version != root) all.push_back(version / below);
+    break;
+  }
+  return all;
+}
+
 /// Returns the file of a texture in the folder that the model names.
 std::optional<std::string> textureInFolder(const fs::path& asked, const std::string& model,
                                            const TextureName& name) {
-  const fs::path folder = asked.is_absolute()
-                              ? asked.parent_path()
-                              : (folderOfModel(model) / asked.parent_path()).lexically_normal();
-  NearestTexture nearest(name.level);
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const auto other = textureNameOf(entry->path().filename().string());
-    if (other && lowerCaseOf(other->before) == lowerCaseOf(name.before) &&
-        lowerCaseOf(other->after) == lowerCaseOf(name.after))
-      nearest.offer(entry->path().string(), other->level);
+  const fs::path named = asked.is_absolute()
+                             ? asked.parent_path()
+                             : (folderOfModel(model) / asked.parent_path()).lexically_normal();
+  for (const fs::path& folder : inVersions(named)) {
+    NearestTexture nearest(name.level);
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+      const auto other = textureNameOf(entry->path().filename().string());
+      if (other && lowerCaseOf(other->before) == lowerCaseOf(name.before) &&
+          lowerCaseOf(other->after) == lowerCaseOf(name.after))
+        nearest.offer(entry->path().string(), other->level);
+    }
+    if (nearest.file()) return nearest.file();
   }
-  return nearest.file();
+  return {};
 }
 
-/// Returns the file of a texture in the archives of the cell, by the part of its name behind the tile's.
-std::optional<std::string> textureInArchives(const std::string& name, const std::string& model) {
-  const auto asked = cdbNameOf(name);
-  if (!asked || asked->tile.set != CdbSet::kSpecificTextures) return {};
-  // ".../N32/W118/300_GSModelGeometry/L00/U0": the cell is three folders up.
-  const fs::path cell = folderOfModel(model).parent_path().parent_path().parent_path();
-  const auto level = textureNameOf(asked->rest);
-  const std::string wanted = lowerCaseOf(level ? level->before + "_" + level->after : asked->rest);
-  constexpr int kUnknownLevel = 99;
-  NearestTexture nearest(level ? level->level : kUnknownLevel);
+/// Returns the archives of textures of a cell.
+std::set<fs::path> textureArchives(const fs::path& cell) {
   std::set<fs::path> archives;
   std::error_code error;
   for (fs::directory_iterator set(cell, error), end; !error && set != end; set.increment(error))
@@ -126,19 +136,38 @@ std::optional<std::string> textureInArchives(const std::string& name, const std:
                                           });
           !visited)
         return {};
-  for (const fs::path& archive : archives) {
-    const auto names = namesInArchive(archive);
-    if (!names) continue;
-    for (const std::string& inside : *names) {
-      const auto other = cdbNameOf(fs::path(inside).filename().string());
-      if (!other) continue;
-      const auto otherLevel = textureNameOf(other->rest);
-      if (lowerCaseOf(otherLevel ? otherLevel->before + "_" + otherLevel->after : other->rest) == wanted)
-        nearest.offer(std::string(kZip) + archive.string() + '/' + inside,
-                      otherLevel ? otherLevel->level : kUnknownLevel);
+  return archives;
+}
+
+/// Returns the file of a texture in the archives of the cell, by the part of its name behind the tile's.
+std::optional<std::string> textureInArchives(const std::string& name, const std::string& model) {
+  const auto asked = cdbNameOf(name);
+  if (!asked || asked->tile.set != CdbSet::kSpecificTextures) return {};
+  // ".../N32/W118/300_GSModelGeometry/L00/U0": the cell is three folders up.
+  const fs::path cell = folderOfModel(model).parent_path().parent_path().parent_path();
+  const auto level = textureNameOf(asked->rest);
+  const auto plain = [](const std::string& rest, const std::optional<TextureName>& withLevel) {
+    return lowerCaseOf(withLevel ? withLevel->before + "_" + withLevel->after : rest);
+  };
+  const std::string wanted = plain(asked->rest, level);
+  constexpr int kUnknownLevel = 99;
+  for (const fs::path& folder : inVersions(cell)) {
+    NearestTexture nearest(level ? level->level : kUnknownLevel);
+    for (const fs::path& archive : textureArchives(folder)) {
+      const auto names = namesInArchive(archive);
+      if (!names) continue;
+      for (const std::string& inside : *names) {
+        const auto other = cdbNameOf(fs::path(inside).filename().string());
+        if (!other) continue;
+        const auto otherLevel = textureNameOf(other->rest);
+        if (plain(other->rest, otherLevel) == wanted)
+          nearest.offer(std::string(kZip) + archive.string() + '/' + inside,
+                        otherLevel ? otherLevel->level : kUnknownLevel);
+      }
     }
+    if (nearest.file()) return nearest.file();
   }
-  return nearest.file();
+  return {};
 }
 
 }  // namespace

@@ -179,6 +179,7 @@ TEST_F(SanDiego, hasItsImageryWithinHalfATexel) {
   EXPECT_LT(std::abs(bestX), 0.5);
   EXPECT_LT(std::abs(bestY), 0.5);
   EXPECT_LT(least, spread / 4) << "any shift is as good";
+  std::printf("best shift of the image %.2f, %.2f texels\n", bestX, bestY);
 }
 
 TEST_F(SanDiego, hasEachFeatureAtItsPlaceAndHeading) {

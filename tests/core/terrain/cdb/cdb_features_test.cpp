@@ -40,6 +40,7 @@ class CdbFeaturesTest : public ::testing::Test {
     cdb_.table(tile(101, 2, 2, level, up, right), class_,
                {{{}, {{"CNAM", "tree"}, {"FACC", "EC030"}, {"FSC", "4"}, {"MODL", "oak"}}},
                 {{}, {{"CNAM", "high"}, {"FACC", "EC030"}, {"FSC", "4"}, {"MODL", "oak"}, {"AHGT", "T"}}},
+                {{}, {{"CNAM", "odd"}, {"FACC", "EC030"}, {"FSC", "1e300"}, {"MODL", "oak"}}},
                 {{}, {{"CNAM", "none"}, {"FACC", "EC030"}, {"FSC", "4"}, {"MODL", "ash"}}}},
                false);
   }
@@ -149,12 +150,15 @@ TEST_F(CdbFeaturesTest, rowsThatCannotBeUsedAreNamed) {
 TEST_F(CdbFeaturesTest, whatHasNoModelIsCountedAndNamed) {
   typicalModel("oak");
   trees(0, {row(18.5, -33.5, {{"CNAM", "tree"}}), row(18.6, -33.5, {{"CNAM", "none"}}),
-            row(18.7, -33.5, {{"CNAM", "none"}}), row(18.8, -33.5, {{"CNAM", "unheard"}})});
+            row(18.7, -33.5, {{"CNAM", "none"}}), row(18.8, -33.5, {{"CNAM", "unheard"}}),
+            row(18.9, -33.5, {{"CNAM", "odd"}})});
   const CdbFeatures features = read();
   EXPECT_EQ(features.list.placements.size(), 1u);
   EXPECT_EQ(features.withoutModel,
-            (std::map<std::string, std::size_t>{{"EC030_004_ash", 2}, {"no MODL and FACC for unheard", 1}}));
-  EXPECT_NE(about_.find("none for 3 features"), std::string::npos) << about_;
+            (std::map<std::string, std::size_t>{{"EC030_004_ash", 2},
+                                                {"no FACC, FSC and MODL for odd", 1},
+                                                {"no FACC, FSC and MODL for unheard", 1}}));
+  EXPECT_NE(about_.find("none for 4 features"), std::string::npos) << about_;
   EXPECT_NE(about_.find("EC030_004_ash"), std::string::npos) << about_;
 }
 
@@ -230,6 +234,17 @@ TEST_F(CdbFeaturesTest, aMissingTextureHasTheNearestLevelThereIs) {
   EXPECT_EQ(test::readFile(found("W05").value()), "W06");
   EXPECT_EQ(test::readFile(found("W08").value()), "W10") << "the finer of two";
   EXPECT_EQ(test::readFile(found("W00").value()), "W02");
+  // An older version has what this one lacks.
+  const fs::path old = dir_ / "old" / "GTModel" / "501_GTModelTexture" / "M" / "O" / "moss";
+  fs::create_directories(old);
+  fs::create_directories(cdb_.root / "Metadata");
+  test::writeFile(old / "D501_S001_T001_W01_moss.rgb", "moss");
+  test::writeFile(cdb_.root / "Metadata" / "Version.xml",
+                  "<Version><PreviousIncrementalRootDirectory name=\"../old\"/></Version>");
+  EXPECT_EQ(test::readFile(cdbTexture("../../../../501_GTModelTexture/M/O/moss/D501_S001_T001_W05_moss.rgb",
+                                      (models / "oak.flt").string())
+                               .value_or("")),
+            "moss");
   EXPECT_FALSE(cdbTexture("D:/textures/bark.rgb", (models / "oak.flt").string()));
   EXPECT_FALSE(cdbTexture("../D501_S001_T001_W01_bark.rgb", (models / "oak.flt").string()));
   // In an archive of the cell, under another tile's name.

@@ -51,7 +51,8 @@ Result<std::string> bytesOfCdbFile(const std::string& file, std::size_t mostByte
 
 /// Returns the file of a texture that a model of a CDB asks for and that is not where it says: the level W
 /// nearest to the one in its name, the finer one of two, from the folder that it names or from the archives
-/// (301) of the model's cell, whatever tile its name has. Returns none for other names.
+/// (301) of the model's cell, whatever tile its name has; else from the same place in the versions that the
+/// model's root replaces. Returns none for other names.
 std::optional<std::string> cdbTexture(const std::string& asked, const std::string& model);
 
 }  // namespace trimtab::terrain
