@@ -30,6 +30,8 @@ void TerrainController::connectJob() {
     panel_.showJob(0, what);
     if (!database_) at_.viewport.setNotice(tr("%1...").arg(what));
   });
+  connect(&job_, &TerrainJob::found, this,
+          [this](const Findings& notes) { at_.messages.add(tr("What the CDB holds"), notes); });
   connect(&job_, &TerrainJob::progressed, &panel_, &Panel::showJob);
   connect(&job_, &TerrainJob::cancelled, &panel_, &Panel::endJob);
   connect(&job_, &TerrainJob::opened, &panel_, &Panel::endJob);
@@ -68,7 +70,7 @@ void TerrainController::askOpenFile() {
 
 void TerrainController::askOpenFolder() {
   const QString picked = QFileDialog::getExistingDirectory(
-      &at_.window, tr("Open a folder of elevation files or scenery, or a database"));
+      &at_.window, tr("Open a folder of elevation files, scenery or a CDB, or a database"));
   if (!picked.isEmpty()) open(picked);
 }
 

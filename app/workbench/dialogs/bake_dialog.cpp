@@ -57,7 +57,9 @@ BakeDialog::BakeDialog(QWidget* parent)
   sources_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   sources_->setToolTip(
       tr("Files may overlap and may differ in projection, datum and resolution. Where several overlap, the "
-         "finest one is used, and borders are blended. A folder adds all files in it."));
+         "finest one is used, and borders are blended. A folder adds all files in it; a CDB (a folder with "
+         "Tiles) "
+         "adds its elevation and features, and its imagery unless an image is named."));
   sources_->setMinimumHeight(110);
   auto* files = new QPushButton(tr("Add &files..."), this);
   auto* folder = new QPushButton(tr("Add fo&lder..."), this);
@@ -173,7 +175,8 @@ void BakeDialog::addFiles() {
 }
 
 void BakeDialog::addFolder() {
-  const QString folder = QFileDialog::getExistingDirectory(this, tr("Folder of elevation files or scenery"));
+  const QString folder =
+      QFileDialog::getExistingDirectory(this, tr("Folder of elevation files, scenery or a CDB"));
   if (!folder.isEmpty()) addSources({folder});
 }
 

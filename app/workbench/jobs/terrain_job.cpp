@@ -33,8 +33,11 @@ void TerrainJob::cancel() {
 
 void TerrainJob::open(const std::filesystem::path& source) {
   start(source, tr("Opening %1").arg(QString::fromStdString(source.filename().string())),
-        [source](const terrain::Progress& progress) {
-          return terrain::openOrBake(source, terrain::cacheFolder(), progress);
+        [this, source](const terrain::Progress& progress) {
+          tell({source});
+          return terrain::openOrBake(source, terrain::cacheFolder(), progress,
+                                     terrain::BakeOptions{}.trianglesPerNode,
+                                     terrain::ObjectsToBake{{}, models::readModel});
         });
 }
 
@@ -64,11 +67,20 @@ void TerrainJob::openSample() {
 
 void TerrainJob::bake(terrain::BakeOptions options) {
   const std::filesystem::path output = options.output;
+  if (!options.readModel) options.readModel = models::readModel;
   start(output, tr("Baking %1").arg(QString::fromStdString(output.filename().string())),
-        [options = std::move(options)](const terrain::Progress& progress) mutable {
+        [this, options = std::move(options)](const terrain::Progress& progress) mutable {
           options.progress = progress;
+          tell(options.sources);
           return terrain::bake(options);
         });
+}
+
+void TerrainJob::tell(const std::vector<std::filesystem::path>& sources) {
+  Findings notes = terrain::aboutSources(sources);
+  if (!notes.empty())
+    QMetaObject::invokeMethod(
+        this, [this, notes = std::move(notes)] { emit found(notes); }, Qt::QueuedConnection);
 }
 
 void TerrainJob::start(const std::filesystem::path& source, const QString& what, Work work) {

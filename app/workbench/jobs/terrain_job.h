@@ -23,7 +23,7 @@ class TerrainJob : public QObject {
   explicit TerrainJob(QObject* parent = nullptr);
   ~TerrainJob() override;
 
-  /// Opens an elevation file, a folder of them, or a database.
+  /// Opens an elevation file, a folder of them, a CDB with what stands in it, or a database.
   void open(const std::filesystem::path& source);
   /// Opens the built-in sample terrain. It is made and baked once per user.
   void openSample();
@@ -38,6 +38,8 @@ class TerrainJob : public QObject {
 
  signals:
   void started(const QString& what);
+  /// Notes of what CDBs hold that are about to be baked.
+  void found(const trimtab::Findings& notes);
   void progressed(double fraction, const QString& what);
   /// The findings are what is worth knowing about how it was opened or baked.
   void opened(std::shared_ptr<const trimtab::terrain::Database> database, const trimtab::Findings& findings);
@@ -46,6 +48,8 @@ class TerrainJob : public QObject {
 
  private:
   void stop();
+  /// Emits found() from a job's thread.
+  void tell(const std::vector<std::filesystem::path>& sources);
 
   std::filesystem::path source_;
   std::jthread thread_;                      ///< the last job's; it joins the thread before it
