@@ -81,11 +81,8 @@ struct Renderer::Impl {
                 void (TerrainDrawer::*drawNodes)(unsigned program));
   FrameResult draw(const FrameRequest& r, unsigned fbo);
   static void leaveContext(unsigned fbo);
-  std::vector<std::uint32_t> readNodes(bool unculled);
-  std::vector<std::uint32_t> readObjects();
-  /// Draws the numbers of nodes into an image of numbers, and then what `more` draws.
-  template <typename More>
-  std::vector<std::uint32_t> readNumbers(bool unculled, const More& more);
+  /// Reads the numbers of nodes, or of the objects in front of them.
+  std::vector<std::uint32_t> readNumbers(bool unculled, bool ofObjects);
 };
 
 TerrainDrawer* Renderer::Impl::drawerOf(TerrainForm form) {
@@ -334,8 +331,8 @@ void Renderer::Impl::leaveContext(unsigned fbo) {
   glClearDepth(1);
 }
 
-template <typename More>
-std::vector<std::uint32_t> Renderer::Impl::readNumbers(bool unculled, const More& more) {
+std::vector<std::uint32_t> Renderer::Impl::readNumbers(bool unculled, bool ofObjects) {
+  if (!gl || !shown) return {};
   SceneView view = *shown;
   view.shape = lastView;
   view.guardBand = guardBandOf(lastView, gl->viewports);
@@ -347,23 +344,13 @@ std::vector<std::uint32_t> Renderer::Impl::readNumbers(bool unculled, const More
   gl->programs.begin(view);
   gl->programs.clear(false);
   if (view.form) drawForm(view, SceneShaders::tile_numbers, false, &TerrainDrawer::drawNumbered);
-  more();
+  if (ofObjects) {
+    gl->nodes.forget();
+    if (terrain && objects.drawsAny()) objects.drawNumbers(gl->programs);
+  }
   std::vector<std::uint32_t> numbers = gl->nodes.read();
   leaveContext(static_cast<GLuint>(before));
   return numbers;
-}
-
-std::vector<std::uint32_t> Renderer::Impl::readNodes(bool unculled) {
-  return readNumbers(unculled, [] {});
-}
-
-std::vector<std::uint32_t> Renderer::Impl::readObjects() {
-  return readNumbers(false, [this] {
-    // The ground keeps its depth and loses its numbers.
-    const GLuint none[4] = {NodeTarget::kNone, 0, 0, 0};
-    glClearBufferuiv(GL_COLOR, 0, none);
-    if (terrain && objects.drawsAny()) objects.drawNumbers(gl->programs);
-  });
 }
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
@@ -444,13 +431,11 @@ void plant(Renderer& renderer, const Defects& defects) {
 }
 
 std::vector<std::uint32_t> Renderer::readNodes(bool unculled) {
-  if (!impl_->gl || !impl_->shown) return {};
-  return impl_->readNodes(unculled);
+  return impl_->readNumbers(unculled, false);
 }
 
 std::vector<std::uint32_t> Renderer::readObjects() {
-  if (!impl_->gl || !impl_->shown) return {};
-  return impl_->readObjects();
+  return impl_->readNumbers(false, true);
 }
 
 std::vector<std::uint8_t> Renderer::readPixels(int width, int height) {

@@ -11,6 +11,10 @@ void NodeTarget::begin(int width, int height) {
   glBindFramebuffer(GL_FRAMEBUFFER, frame_.id());
   glDisable(GL_SCISSOR_TEST);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  forget();
+}
+
+void NodeTarget::forget() {
   const GLuint none[4] = {kNone, 0, 0, 0};
   glClearBufferuiv(GL_COLOR, 0, none);
 }

@@ -16,6 +16,9 @@ class NodeTarget {
  public:
   /// Binds it at that size and sets all pixels to kNone. The camera clears the depth.
   void begin(int width, int height);
+  /// Sets all pixels of the bound target to kNone and keeps their depths: what was drawn still hides what is
+  /// drawn later, but has no number.
+  void forget();
   unsigned id() const { return frame_.id(); }
   /// Returns the numbers, row 0 at the bottom. Leaves the target bound for reading.
   std::vector<std::uint32_t> read() const;

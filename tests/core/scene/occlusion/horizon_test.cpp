@@ -219,6 +219,46 @@ TEST(HorizonMemory, knowsHowFastTheEyeGoesAlsoWhereItIsNotAsked) {
   }
 }
 
+// 100 boxes, 2 km above the eye or 300 m below it, 10 km to the north. The eye flies 200 m in steps of 5 m.
+TEST(HorizonMemory, boxesAreTestedAgainFiftyMetresOnWhereNextToNoneWasHidden) {
+  const auto database = test::syntheticMountains();
+  const auto framesWithBoxes = [&](double aboveEyeM, bool skips) {
+    scene::TileGround ground;
+    LevelCut cut;
+    scene::CutNumber number{1, 1, 0.2 / 640};
+    ground.setDatabase(database);
+    ground.setCut(cut, number);
+    ground.share().begin(1000);
+    GeodeticPosition place = scene::placeIn(database->info(), 0.5, 0.3);
+    place.height = database->heightAt(place.latitude, place.longitude).value() + Metres{100};
+    Vec3 eye = database->index().frame.fromGeodetic(place);
+    ObjectIndex objects;
+    for (int i = 0; i < 100; ++i) {
+      const auto x = static_cast<float>(eye.x + 20 * i), y = static_cast<float>(eye.y + 10000),
+                 z = static_cast<float>(eye.z + aboveEyeM);
+      objects.cells.push_back({.bounds = {x, y, z, x + 10, y + 10, z + 10}});
+    }
+    ground.setObjects(&objects);
+    scene::HorizonMemory memory;
+    int tested = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+      memory.beginFrame();
+      selectLevels(database->index(), eye, {0.2, 1, 640}, cut);
+      ++number.cut;
+      const auto found = memory.find(ground, eye, {}, {.littleHidden = skips});
+      EXPECT_FALSE(found.hidden.empty());
+      tested += !found.hiddenBoxes.empty();
+      eye = eye + Vec3{5, 0, 0};
+    }
+    return tested;
+  };
+  EXPECT_EQ(framesWithBoxes(2000, false), 40);
+  const int inTheSky = framesWithBoxes(2000, true);
+  EXPECT_GT(inTheSky, 3) << "the first place, and others 50 m on";
+  EXPECT_LT(inTheSky, 30);
+  EXPECT_EQ(framesWithBoxes(-300, true), 40) << "most of them are hidden";
+}
+
 TEST(HorizonSlack, followsTheRasterisersSteps) {
   ViewShape view;
   view.left = -1, view.right = 1, view.bottom = -0.5, view.top = 0.5;
