@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <span>
 #include <string_view>
 #include <thread>
 #include <vector>
@@ -19,44 +18,21 @@
 namespace trimtab {
 namespace {
 
-constexpr std::string_view kHeader = "trimtab-cost-model 4", kHeaderBefore = "trimtab-cost-model 3";
+constexpr std::string_view kHeader = "trimtab-cost-model 4";
 
 constexpr int kFirstNumber = 3;  ///< its line
 
-/// A number of a file that is read, and its line.
-struct Cell {
-  double number = 0;
-  int line = 0;
-};
-
-/// Names every number that no model can have, with its line: that of its cell, or if there are none, the line
-/// into which it will be written.
-Findings unsound(const CostModel::State& state, const std::filesystem::path& file,
-                 std::span<const Cell> cells = {}) {
+/// Names every number that no model can have, with its line.
+Findings unsound(const CostModel::State& state, const std::filesystem::path& file) {
   Findings findings;
-  std::size_t i = 0;
+  int line = kFirstNumber;
   CostModel::State::forEachNumber(state, [&](const std::string& key, double number, double low, double high) {
-    const int line = i < cells.size() ? cells[i].line : kFirstNumber + static_cast<int>(i);
-    ++i;
     if (!(number >= low && number <= high))
       findings.push_back({Severity::warning, file.string() + ':' + std::to_string(line), key,
                           numberText(low, 6) + ".." + numberText(high, 6), numberText(number, 6)});
+    ++line;
   });
   return findings;
-}
-
-/// Makes format 4 of the numbers of format 3, which had one more cost of the ground: that of a triangle times
-/// the side of the scene, the third of four. It joins the cost of a triangle, as it was for a scene of a
-/// million pixels.
-void joinSideOfTriangles(std::vector<Cell>& cells) {
-  constexpr std::size_t kClock = 43;  ///< numbers of a clock
-  /// Its coefficient, column and row of the covariance, and scale among the numbers of a clock, last first.
-  constexpr std::array kSide{22, 18, 15, 14, 13, 12, 10, 6, 2};
-  for (const std::size_t clock : {kClock, std::size_t{0}}) {
-    if (cells.size() < clock + kClock) continue;
-    cells[clock + 1].number += cells[clock + 2].number;
-    for (const int i : kSide) cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(clock) + i);
-  }
 }
 
 std::string processorName() {
@@ -100,32 +76,23 @@ Result<CostModel::State> readCostModel(const std::filesystem::path& file, const 
     return Finding{Severity::warning, file.string() + ':' + std::to_string(line), "", std::move(expected),
                    '"' + std::string(found.substr(0, 60)) + '"'};
   };
-  const std::string_view header = takeLine(text);
-  if (header != kHeader && header != kHeaderBefore)
+  if (const std::string_view header = takeLine(text); header != kHeader)
     return finding(1, '"' + std::string(kHeader) + '"', header);
   if (const std::string_view on = takeLine(text); on != machine)
     return finding(2, "a model of this machine, \"" + machine + '"', on);
-  std::vector<Cell> cells;
-  for (int line = kFirstNumber; !text.empty(); ++line) {
-    const std::string_view cell = takeLine(text);
-    double number = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    if (error != std::errc{} || end != cell.data() + cell.size() || !std::isfinite(number))
-      return finding(line, "a number", cell);
-    cells.push_back({number, line});
-  }
-  const int lines = kFirstNumber + static_cast<int>(cells.size());
-  if (header == kHeaderBefore) joinSideOfTriangles(cells);
   CostModel::State state;
-  std::size_t count = 0;
+  int line = kFirstNumber - 1;
+  std::optional<Finding> bad;
   CostModel::State::forEachNumber(state, [&](const std::string&, double& number, double, double) {
-    if (count < cells.size()) number = cells[count].number;
-    ++count;
+    ++line;
+    const std::string_view cell = takeLine(text);
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    const bool good = error == std::errc{} && end == cell.data() + cell.size() && std::isfinite(number);
+    if (!good && !bad) bad = finding(line, "a number", cell);
   });
-  if (cells.size() < count) return finding(lines, "a number", "");
-  if (cells.size() > count)
-    return finding(cells[count].line, "the end of the file", numberText(cells[count].number, 6));
-  if (Findings findings = unsound(state, file, cells); !findings.empty()) return findings;
+  if (!bad && !text.empty()) bad = finding(line + 1, "the end of the file", takeLine(text));
+  if (bad) return *bad;
+  if (Findings findings = unsound(state, file); !findings.empty()) return findings;
   return state;
 }
 

@@ -1,5 +1,7 @@
 #include "row.h"
 
+#include <time.h>
+
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -129,6 +131,12 @@ int Report::finish() const {
     std::printf("%s%s\n", json(rows_[i]).c_str(), i + 1 < rows_.size() ? "," : "");
   std::printf("]}\n");
   return 0;
+}
+
+double processorMs() {
+  timespec t{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
 double monotonicSeconds() {

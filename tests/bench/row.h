@@ -65,6 +65,9 @@ inline void keep(const T& value) {
 }
 
 double monotonicSeconds();
+/// Returns the processor time of all threads of this program so far, milliseconds. Other programs add little
+/// to it.
+double processorMs();
 
 template <class Work>
 double leastSeconds(int repeats, const Work& work) {

@@ -1,4 +1,3 @@
-#include <time.h>
 
 #include <cstdlib>
 #include <iostream>
@@ -45,14 +44,6 @@ double firstImageMs(BenchScene& scene, TerrainForm form) {
   r.waitForPages = r.waitForImage = true;
   scene.draw(r);
   return (monotonicSeconds() - start) * 1e3;
-}
-
-/// Returns the processor time of all threads, also those that read and check. Other programs add little to
-/// it.
-double processorMs() {
-  timespec t{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
 }
 
 /// A flight east with a database of its own, from a place whose terrain is in memory.

@@ -30,7 +30,6 @@ constexpr std::array<Way, 7> kWays{{{Way::What::frustum, 0},
                                     {Way::What::owners, 4},
                                     {Way::What::owners, 0},
                                     {Way::What::sky, 0}}};
-constexpr int kWidth = 1280, kHeight = 720;
 
 class Floor {
  public:

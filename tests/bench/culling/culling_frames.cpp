@@ -19,8 +19,6 @@
 namespace trimtab::bench {
 namespace {
 
-constexpr double kMetresAFoot = 0.3048;
-
 class Frames {
  public:
   explicit Frames(std::shared_ptr<const terrain::Database> database) : database_(std::move(database)) {

@@ -8,6 +8,10 @@
 
 namespace trimtab::bench {
 
+/// The image of all rows that draw, pixels, and what they draw by.
+inline constexpr int kWidth = 1280, kHeight = 720;
+inline constexpr double kErrorPx = 2, kMetresAFoot = 0.3048;
+
 /// Whole frames of the culling cases, one after the other on the same view; and the peers that need a
 /// terrain.
 void frameRows(Report& report);

@@ -12,8 +12,6 @@
 namespace trimtab::bench {
 namespace {
 
-constexpr double kErrorPx = 2;
-
 /// Ranges are from the bounding sphere's middle, so what is nearer than the sphere's own radius and the
 /// distance at which the error shows is split: the same screen-space error holds as ours.
 osg::ref_ptr<osg::Node> lodTree(const TerrainIndex& index, std::uint32_t node, double metresPerError) {

@@ -14,8 +14,6 @@
 namespace trimtab::bench {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 720;
-constexpr double kMetresAFoot = 0.3048, kErrorPx = 2;
 /// osg::OcclusionQueryNode asks every fifth frame: frames are counted in whole cycles of it.
 constexpr int kCycle = 5;
 

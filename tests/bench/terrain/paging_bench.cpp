@@ -1,7 +1,6 @@
 #include "paging_bench.h"
 
 #include <fcntl.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -62,13 +61,6 @@ struct Course {
     return r;
   }
 };
-
-/// Of all threads: those that draw and those that read.
-double processorMs() {
-  timespec t{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
 
 struct FlownFrame {
   double ms = 0, processorMs = 0, pageMs = 0;

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "noisy_machine.h"
-#include "tests/support.h"
 #include "trimtab/units/not_finite.h"
 
 namespace trimtab {
@@ -48,34 +47,6 @@ TEST_F(CostModelFile, readsBackToTheBit) {
   EXPECT_EQ(state->processor.ground.covariance, model.state().processor.ground.covariance);
   EXPECT_EQ(state->processor.weather.coefficient, model.state().processor.weather.coefficient);
   EXPECT_EQ(state->processor.other, model.state().processor.other);
-}
-
-/// The file is one of format 3, learned from 300 images at full and half the render scale; its model
-/// predicted 13.4 ms for the first load.
-TEST_F(CostModelFile, ofTheFormatBeforeStillLoads) {
-  const auto old = test::sourceDir() / "tests/data/hold/cost-model-3.txt";
-  const auto state = readCostModel(old, "llvmpipe");
-  ASSERT_TRUE(state.ok()) << toString(state.findings());
-  CostModel model;
-  model.restore(*state);
-  for (const FrameLoad& load : {FrameLoad{6e4, 0.5, 0.92, 0, false}, FrameLoad{1.4e5, 0.3, 0.92, 0, false}}) {
-    const CostCoefficients cost = model.coefficients(load);
-    EXPECT_TRUE(cost.known);
-    const double ms = Machine::ground(load) + 0.4;
-    EXPECT_NEAR(predict(cost, load).total(), ms, 0.05 * ms);
-  }
-  EXPECT_EQ(state->gpu.band, kNormalBand);
-  ASSERT_TRUE(writeCostModel(file, "llvmpipe", model).ok());
-  EXPECT_TRUE(readCostModel(file, "llvmpipe").ok());
-  std::filesystem::copy_file(old, file, std::filesystem::copy_options::overwrite_existing);
-  std::string damaged = text();
-  const std::size_t scale = damaged.find("6.851737402377402");
-  ASSERT_NE(scale, std::string::npos);
-  rewrite(damaged.replace(scale, 17, "-1"));
-  const auto refused = readCostModel(file, "llvmpipe");
-  ASSERT_FALSE(refused.ok());
-  EXPECT_NE(toString(refused.findings()).find(":26: processor.ground.scale[2]"), std::string::npos)
-      << toString(refused.findings());
 }
 
 TEST_F(CostModelFile, ofAnotherMachineIsDistrusted) {

