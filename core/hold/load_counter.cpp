@@ -72,9 +72,9 @@ double ratioOf(const CutRule& rule, double error, double distance2) {
   return spreadSquared(error * error / rule.limit(), rule.spread, rule.spreadFromM) / distance2;
 }
 
-/// Walks the nodes in view that a step below `steps` draws, and their ancestors. `ratio(node, distance2)` is
-/// as Accepted takes it. `draw(node, first, below)` is told that steps `first` to `below` draw a node; none
-/// if `first` is not less.
+/// Walks the nodes in view that a step below `steps` draws, and their ancestors. `ratio(node, distance2)`
+/// returns what Accepted takes. `draw(node, first, below)` is called for each of them: the steps from `first`
+/// to before `below` draw it, and no step does if `first` is not less than `below`.
 template <class Index, class Ratio, class Draw>
 void walk(const Index& index, const LoadView& view, const Accepted& accepted, std::size_t steps,
           std::vector<std::uint64_t>& stack, const Ratio& ratio, const Draw& draw) {

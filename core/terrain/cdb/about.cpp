@@ -30,20 +30,26 @@ Cells cellsOf(const std::vector<const CdbFile*>& tiles) {
   return cells;
 }
 
+/// Returns the first eight names, and says how many more there are.
+std::string someOf(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 8;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  if (names.size() > kMost) text += " and " + std::to_string(names.size() - kMost) + " more";
+  return text;
+}
+
 /// Names the cells of some files that others do not have.
 std::string withoutCells(const Cells& some, const Cells& others) {
-  constexpr std::size_t kMost = 8;
-  std::string names;
-  std::size_t count = 0;
+  std::vector<std::string> names;
   for (const auto& [south, west] : some) {
-    if (others.contains({south, west}) || ++count > kMost) continue;
+    if (others.contains({south, west})) continue;
     CdbTile tile;
     tile.south = south;
     tile.west = west;
-    names += (names.empty() ? "" : ", ") + tile.name().substr(0, 7);
+    names.push_back(tile.name().substr(0, 7));
   }
-  if (count > kMost) names += " and " + std::to_string(count - kMost) + " more";
-  return names;
+  return someOf(names);
 }
 
 /// Counts rows of lines and areas at their finest tables, for each data set; and what else there is.
@@ -91,16 +97,14 @@ Findings aboutCdb(const CdbCatalogue& cdb, const CdbFeatures& features) {
           " of shared models); " + std::to_string(features.replaced) +
           " rows of coarser levels that finer ones replace");
   if (!features.withoutModel.empty()) {
-    constexpr std::size_t kMost = 8;
-    std::size_t count = 0, named = 0;
-    std::string names;
+    std::size_t count = 0;
+    std::vector<std::string> names;
     for (const auto& [name, rows] : features.withoutModel) {
       count += rows;
-      if (++named <= kMost) names += (names.empty() ? "" : ", ") + name;
+      names.push_back(name);
     }
-    if (named > kMost) names += " and " + std::to_string(named - kMost) + " more";
     say("models", "a model for each feature",
-        "none for " + std::to_string(count) + " features, which are not drawn: " + names);
+        "none for " + std::to_string(count) + " features, which are not drawn: " + someOf(names));
   }
   if (features.lights > 0)
     say("lights", "features that are drawn", std::to_string(features.lights) + " lights (100), not drawn");

@@ -234,7 +234,7 @@ TEST_F(CdbFeaturesTest, aMissingTextureHasTheNearestLevelThereIs) {
   EXPECT_EQ(test::readFile(found("W05").value()), "W06");
   EXPECT_EQ(test::readFile(found("W08").value()), "W10") << "the finer of two";
   EXPECT_EQ(test::readFile(found("W00").value()), "W02");
-  // An older version has what this one lacks.
+  // A texture that this version lacks is read from an older one.
   const fs::path old = dir_ / "old" / "GTModel" / "501_GTModelTexture" / "M" / "O" / "moss";
   fs::create_directories(old);
   fs::create_directories(cdb_.root / "Metadata");
