@@ -33,6 +33,15 @@ inline constexpr std::array kObjectRows{
          .hard = {10, 1e6},
          .usual = {500, 100000},
          .step = 100,
-         .logarithmic = true})};
+         .logarithmic = true}),
+    row<&TuningParameters::objects, &ObjectParameters::lightSize>(
+        {.key = "objects.light_px",
+         .label = "Size of lights",
+         .help = "A light of a town or an airfield is a point of this size in the image, however far it is. "
+                 "0 draws no lights, as by day.",
+         .hard = {0, 16},
+         .usual = {0, 6},
+         .step = 0.1,
+         .decimals = 2})};
 
 }  // namespace trimtab::table

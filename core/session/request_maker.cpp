@@ -67,6 +67,7 @@ FrameRequest RequestMaker::make(const ImageOf& image, const TuningParameters& p,
   request.backFaces = p.culling.backFaces;
   request.spreadFrom = p.lod.spreadFrom;
   request.scaleTexture = p.lod.texture;
+  request.lightPx = p.objects.lightSize.value();
   request.staticLod = p.staticLod;
   request.terrain = p.terrain;
   request.levers = leversOf(request.decision, p);

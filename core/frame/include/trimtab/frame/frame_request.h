@@ -60,6 +60,7 @@ struct FrameRequest {
   bool backFaces = true;           ///< culls nodes that face away from the eye, except in CullingCase::none
   Metres spreadFrom{5000};         ///< as LodParameters::spreadFrom
   bool scaleTexture = false;       ///< the ground's texture shrinks with the LOD scale too
+  double lightPx = 0;              ///< as ObjectParameters::lightSize
   StaticLodParameters staticLod;   ///< apart from its errorPx, for which FrameLevers::treeErrorPx counts
   TerrainParameters terrain;
   Overlays overlays;

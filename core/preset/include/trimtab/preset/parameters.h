@@ -114,6 +114,7 @@ struct ObjectParameters {
   Pixels errorPx{2};
   Pixels smallFeature{1};  ///< what is smaller in the image is not drawn
   Metres farDistance{100000};
+  Pixels lightSize{0};  ///< of light points across in the image; 0 draws none, as by day
 };
 
 /// Static LOD trees (document E).
