@@ -74,6 +74,7 @@ Json toJson(const terrain::ObjectTerrain& objects) {
           {"finest_triangles", counts.finestTriangles},
           {"coarsest_triangles", counts.coarsestTriangles},
           {"textures", counts.textures},
+          {"lights", counts.lights},
           {"models", models}};
 }
 

@@ -9,7 +9,7 @@
 #include "trimtab/terrain/format/store.h"
 
 /// A file of objects, its checksum made right so that its lies are believed: refused with reasons, or whoever
-/// walks its cells, instances, levels and meshes stays within its arrays and ends.
+/// walks its cells, instances, levels, meshes and lights stays within its arrays and ends.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trimtab;
   constexpr std::size_t kHeader = 28;
@@ -45,5 +45,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
   }
   if (seen != index.instances.size()) std::abort();
+  const LightIndex& lights = (*objects)->lights;
+  for (const LightIndex::Cell& cell : lights.cells)
+    for (std::uint32_t i = 0; i < cell.count; ++i) static_cast<void>(lights.points.at(cell.first + i));
   return 0;
 }

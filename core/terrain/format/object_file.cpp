@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "array_file.h"
+#include "light_arrays.h"
 #include "trimtab/terrain/format/store.h"
 
 namespace trimtab::terrain {
@@ -20,9 +21,9 @@ inline constexpr bool kFillsItsBytes<ObjectVertex> = sizeof(ObjectVertex) == 24;
 
 namespace {
 
-constexpr std::uint32_t kObjectsVersion = 1;
+constexpr std::uint32_t kWithoutLights = 1, kObjectsVersion = 2;
 constexpr ArrayFileKind kObjectsKind{
-    {'T', 'R', 'I', 'M', 'O', 'B', 'J', 'S'}, "objects", kObjectsVersion, kObjectsVersion};
+    {'T', 'R', 'I', 'M', 'O', 'B', 'J', 'S'}, "objects", kWithoutLights, kObjectsVersion};
 constexpr std::size_t kTextureBytes = std::size_t{4} * ObjectTexture::kSidePx * ObjectTexture::kSidePx;
 
 void readArrays(ArrayReader& in, ObjectTerrain& objects) {
@@ -186,7 +187,8 @@ std::string faultOfObjects(const ObjectTerrain& objects) {
   for (const auto& fault : {faultOfModels, faultOfMeshes, faultOfVertices})
     if (std::string found = fault(objects); !found.empty()) return found;
   if (std::string found = faultOfInstances(objects.index); !found.empty()) return found;
-  return faultOfCells(objects.index);
+  if (std::string found = faultOfCells(objects.index); !found.empty()) return found;
+  return faultOfLights(objects.lights);
 }
 
 }  // namespace
@@ -208,6 +210,7 @@ Result<std::uint64_t> writeObjects(const std::filesystem::path& file, const Obje
   out.array(objects.indices);
   out.number(std::uint64_t{objects.textures.size()});
   for (const ObjectTexture& texture : objects.textures) out.array(texture.pixels);
+  addLights(objects.lights, out);
   return writeArrayFile(file, kObjectsKind, kObjectsVersion, std::move(out));
 }
 
@@ -221,6 +224,7 @@ Result<std::shared_ptr<const ObjectTerrain>> readObjects(const std::filesystem::
   auto objects = std::make_shared<ObjectTerrain>();
   ArrayReader reader(body->bytes);
   readArrays(reader, *objects);
+  if (body->version > kWithoutLights) readLights(reader, objects->lights);
   if (Findings end = endFindings(file, reader); !end.empty()) return end;
   if (std::string fault = faultOfObjects(*objects); !fault.empty())
     return faultFinding(file, std::move(fault));
@@ -237,6 +241,7 @@ ObjectCounts countObjects(const ObjectTerrain& objects) {
     counts.finestTriangles += index.levels[model.firstLevel].triangles;
     counts.coarsestTriangles += index.levels[model.firstLevel + model.levels - 1].triangles;
   }
+  counts.lights = objects.lights.points.size();
   return counts;
 }
 

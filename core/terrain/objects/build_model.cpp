@@ -34,6 +34,22 @@ void addFaults(const SourceModel& source, const MeshFaults& faults, Findings& fi
                         std::to_string(faults.noArea) + " without, left out"});
 }
 
+/// Returns the lights that can be drawn.
+std::vector<SourceLight> checkedLights(const SourceModel& source, Findings& findings) {
+  std::vector<SourceLight> lights;
+  for (const SourceLight& light : source.lights) {
+    const auto& [x, y, z] = light.position;
+    if (std::hypot(double{x}, double{y}, double{z}) <= double{ObjectLimits::kRadiusM})  // false for NaN
+      lights.push_back(light);
+  }
+  if (const std::size_t others = source.lights.size() - lights.size(); others > 0)
+    findings.push_back(
+        {Severity::warning, source.name, "",
+         "lights within " + numberText(double{ObjectLimits::kRadiusM}) + " m of the model's origin",
+         std::to_string(others) + (others == 1 ? " other" : " others") + ", left out"});
+  return lights;
+}
+
 double radiusOf(const SourceMesh& mesh) {
   double square = 0;
   for (const SourceVertex& v : mesh.vertices) {
@@ -112,8 +128,11 @@ Result<BuiltModel> buildModel(const SourceModel& source) {
     if (checked.triangles() > 0) given.push_back(std::move(checked));
   }
   addFaults(source, faults, findings);
+  model.lights = checkedLights(source, findings);
+  if (given.empty() && !model.lights.empty())
+    return Result<BuiltModel>(std::move(model), std::move(findings));
   if (given.empty()) {
-    findings.push_back(refusedModel(source, "a model with at least one triangle",
+    findings.push_back(refusedModel(source, "a model with at least one triangle or light",
                                     faults.triangles() > 0 ? "none that can be drawn" : "none"));
     return findings;
   }
@@ -156,6 +175,8 @@ std::uint64_t checksumOf(const SourceModel& model) {
     sums += std::to_string(texture.width) + 'x' + std::to_string(texture.height);
     add(texture.pixels.data(), texture.pixels.size());
   }
+  // Models without lights keep the sum that databases know them by.
+  if (!model.lights.empty()) add(model.lights.data(), model.lights.size() * sizeof(SourceLight));
   return checksum(sums);
 }
 

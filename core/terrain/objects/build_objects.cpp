@@ -1,7 +1,9 @@
 #include "trimtab/terrain/objects/build_objects.h"
 
+#include <algorithm>
 #include <numbers>
 
+#include "light_cells.h"
 #include "packed_models.h"
 #include "placed_instances.h"
 #include "trimtab/terrain/format/object_file.h"
@@ -12,7 +14,7 @@ namespace trimtab::terrain {
 
 namespace {
 
-constexpr std::uint32_t kUnused = 0xffffffffu;
+constexpr std::uint32_t kNoMesh = 0xffffffffu;
 
 /// Turns the model's axes to those of the frame, at a place on the curved earth.
 Mat3 standing(const LocalFrame& frame, const ListedPlacement& p) {
@@ -30,8 +32,9 @@ Result<std::vector<std::uint32_t>> packModels(std::span<const std::optional<Buil
   ModelPacker packer(objects);
   std::vector<std::uint32_t> numbers;
   for (const std::optional<BuiltModel>& model : models) {
-    numbers.push_back(model ? static_cast<std::uint32_t>(extents.size()) : kUnused);
-    if (!model) continue;
+    const bool hasMesh = model && !model->levels.empty();
+    numbers.push_back(hasMesh ? static_cast<std::uint32_t>(extents.size()) : kNoMesh);
+    if (!hasMesh) continue;
     const auto extent = packer.add(*model);
     if (!extent) return extent.findings();
     extents.push_back(*extent);
@@ -43,11 +46,11 @@ Result<std::vector<std::uint32_t>> packModels(std::span<const std::optional<Buil
   return numbers;
 }
 
-Finding tooLarge(const std::string& place, const ListedPlacement& p, const ModelExtent& model) {
+Finding tooLarge(const std::string& place, const ListedPlacement& p, double radiusM) {
   return {Severity::warning, place, "scale",
           "an object that reaches at most " + numberText(double{ObjectLimits::kRadiusM}) +
               " m from its origin; it is left out",
-          numberText(model.radiusM * p.scale, 3) + " m at a scale of " + numberText(p.scale)};
+          numberText(radiusM * p.scale, 3) + " m at a scale of " + numberText(p.scale)};
 }
 
 Finding offTheGround(const std::string& place, const ListedPlacement& p) {
@@ -68,6 +71,8 @@ Result<ObjectTerrain> buildObjects(std::span<const std::optional<BuiltModel>> mo
   std::vector<ModelExtent> extents;
   const auto numbers = packModels(models, where, objects, extents, findings);
   if (!numbers) return numbers.findings();
+  const std::vector<double> lit = reachesOfLights(models, list, where, findings);
+  std::vector<PlacedLight> lights;
   std::vector<PlacedInstance> placed;
   placed.reserve(list.placements.size());
   std::vector<std::size_t> unused(models.size());
@@ -77,13 +82,14 @@ Result<ObjectTerrain> buildObjects(std::span<const std::optional<BuiltModel>> mo
         !progress(static_cast<double>(i) / static_cast<double>(list.placements.size()), "placing objects"))
       return cancelled("placing objects");
     const ListedPlacement& p = list.placements[i];
-    if ((*numbers)[p.model] == kUnused) {
+    if (!models[p.model]) {
       ++unused[p.model];
       continue;
     }
-    if (extents[(*numbers)[p.model]].radiusM * p.scale > double{ObjectLimits::kRadiusM}) {
-      findings.add(Severity::warning,
-                   [&] { return tooLarge(list.placeOf(i, where), p, extents[(*numbers)[p.model]]); });
+    const std::uint32_t number = (*numbers)[p.model];
+    const double radius = std::max(number == kNoMesh ? 0 : extents[number].radiusM, lit[p.model]);
+    if (radius * p.scale > double{ObjectLimits::kRadiusM}) {
+      findings.add(Severity::warning, [&] { return tooLarge(list.placeOf(i, where), p, radius); });
       continue;
     }
     const std::optional<Metres> onGround = ground.heightAt(p.latitude, p.longitude);
@@ -93,19 +99,27 @@ Result<ObjectTerrain> buildObjects(std::span<const std::optional<BuiltModel>> mo
     }
     const GeodeticPosition position{p.latitude, wrapped180(p.longitude),
                                     p.height.value_or(*onGround + p.aboveGround)};
-    placed.push_back({frame.fromGeodetic(position), quantisedTurn(standing(frame, p)),
-                      static_cast<float>(p.scale), (*numbers)[p.model]});
+    const Vec3 place = frame.fromGeodetic(position);
+    const Mat3 turn = standing(frame, p);
+    if (lit[p.model] >= 0)
+      for (const SourceLight& light : models[p.model]->lights) {
+        const auto& [x, y, z] = light.position;
+        lights.push_back({place + (turn * Vec3{x, y, z}) * p.scale, light.colour});
+      }
+    if (number != kNoMesh)
+      placed.push_back({place, quantisedTurn(turn), static_cast<float>(p.scale), number});
   }
   for (std::size_t m = 0; m < unused.size(); ++m)
     if (unused[m] > 0)
       findings.add({Severity::warning, where, list.models[m], "a model that can be used",
                     std::to_string(unused[m]) + (unused[m] == 1 ? " row" : " rows") +
                         " with one that cannot, left out"});
-  if (placed.empty())
+  if (placed.empty() && lights.empty())
     findings.add({Severity::error, where, "", "at least one object on the terrain", "none"});
   Findings all = findings.all(where);
   if (hasError(all)) return all;
   fillCells(placed, extents, objects.index);
+  objects.lights = lightsInCells(std::move(lights));
   return Result<ObjectTerrain>(std::move(objects), std::move(all));
 }
 

@@ -48,18 +48,6 @@ Extent turnedBox(const ModelExtent& model, const ObjectInstance& instance, Vec3 
   return {centre - size, centre + size};
 }
 
-/// Returns x and y as one number whose bits take turns, so that each quarter of a square is a run of it.
-std::uint64_t quarters(std::uint32_t x, std::uint32_t y) {
-  const auto spread = [](std::uint64_t v) {
-    v = (v | v << 16) & 0x0000ffff0000ffffu;
-    v = (v | v << 8) & 0x00ff00ff00ff00ffu;
-    v = (v | v << 4) & 0x0f0f0f0f0f0f0f0fu;
-    v = (v | v << 2) & 0x3333333333333333u;
-    return (v | v << 1) & 0x5555555555555555u;
-  };
-  return spread(x) | spread(y) << 1;
-}
-
 class CellBuilder {
  public:
   CellBuilder(std::vector<PlacedInstance>& placed, const std::vector<ModelExtent>& extents,
@@ -125,16 +113,10 @@ class CellBuilder {
       }
       made.origin = originOf((extent.low + extent.high) * 0.5);
     }
-    made.bounds = {below(extent.low.x),  below(extent.low.y),  below(extent.low.z),
-                   above(extent.high.x), above(extent.high.y), above(extent.high.z)};
+    made.bounds = boxAround(extent.low, extent.high);
     made.end = static_cast<std::uint32_t>(index_.cells.size());
     index_.cells[number] = made;
     return extent;
-  }
-
-  static std::array<std::int32_t, 3> originOf(Vec3 place) {
-    const auto steps = [](double v) { return static_cast<std::int32_t>(std::lround(v / kOriginStepM)); };
-    return {steps(place.x), steps(place.y), steps(place.z)};
   }
 
   Extent leaf(std::uint32_t first, std::uint32_t last, ObjectIndex::Cell& made) {
@@ -180,6 +162,26 @@ class CellBuilder {
 };
 
 }  // namespace
+
+std::uint64_t quarters(std::uint32_t x, std::uint32_t y) {
+  const auto spread = [](std::uint64_t v) {
+    v = (v | v << 16) & 0x0000ffff0000ffffu;
+    v = (v | v << 8) & 0x00ff00ff00ff00ffu;
+    v = (v | v << 4) & 0x0f0f0f0f0f0f0f0fu;
+    v = (v | v << 2) & 0x3333333333333333u;
+    return (v | v << 1) & 0x5555555555555555u;
+  };
+  return spread(x) | spread(y) << 1;
+}
+
+std::array<std::int32_t, 3> originOf(Vec3 place) {
+  const auto steps = [](double v) { return static_cast<std::int32_t>(std::lround(v / kOriginStepM)); };
+  return {steps(place.x), steps(place.y), steps(place.z)};
+}
+
+Box boxAround(Vec3 low, Vec3 high) {
+  return {below(low.x), below(low.y), below(low.z), above(high.x), above(high.y), above(high.z)};
+}
 
 std::array<std::int16_t, 4> quantisedTurn(const Mat3& m) {
   const double xx = m.row[0].x, yy = m.row[1].y, zz = m.row[2].z;

@@ -24,6 +24,12 @@ struct PlacedInstance {
   std::uint32_t model = 0;
 };
 
+/// Returns x and y as one number whose bits take turns, so that each quarter of a square is a run of it.
+std::uint64_t quarters(std::uint32_t x, std::uint32_t y);
+/// Returns the origin of a cell around a place, in steps of 16 m.
+std::array<std::int32_t, 3> originOf(Vec3 place);
+/// Returns the smallest box in floats that holds both corners.
+Box boxAround(Vec3 low, Vec3 high);
 /// Returns the unit quaternion of a rotation times 32767, as ObjectInstance holds it.
 std::array<std::int16_t, 4> quantisedTurn(const Mat3& rotation);
 /// Returns the rotation of a turn, by its direction alone.

@@ -31,6 +31,8 @@ TEST(ObjectFile, bringsBackWhatWasWritten) {
     EXPECT_EQ(bytesOf(a.meshes), bytesOf(b.meshes));
     EXPECT_EQ(bytesOf(a.vertices), bytesOf(b.vertices));
     EXPECT_EQ(a.indices, b.indices);
+    EXPECT_EQ(bytesOf(a.lights.cells), bytesOf(b.lights.cells));
+    EXPECT_EQ(bytesOf(a.lights.points), bytesOf(b.lights.points));
     ASSERT_EQ(a.textures.size(), b.textures.size());
     if (textured) {
       EXPECT_EQ(a.textures[0].pixels, b.textures[0].pixels);
@@ -48,6 +50,7 @@ TEST(ObjectFile, countsWhatIsDrawnAtMostAndAtLeast) {
   EXPECT_EQ(counts.triangles, 4u);
   EXPECT_EQ(counts.finestTriangles, 3u * 2 + 2 * 1);
   EXPECT_EQ(counts.coarsestTriangles, 5u);
+  EXPECT_EQ(counts.lights, 3u);
 }
 
 TEST(ObjectFile, refusesEveryFlippedByteAndEveryCut) {
@@ -126,6 +129,22 @@ const std::vector<Lie> kLies{
     {"instances of cells", [](ObjectTerrain& o) { o.index.cells[2].firstInstance = 1; }},
     {"instances of cells", [](ObjectTerrain& o) { o.index.cells[2].instances = 2; }},
     {"instances of cells", [](ObjectTerrain& o) { o.index.cells[2].instances = 0xffffffffu; }},
+    {"lights of cells", [](ObjectTerrain& o) { o.lights.cells.pop_back(); }},
+    {"lights of cells", [](ObjectTerrain& o) { o.lights.cells[1].first = 1; }},
+    {"lights of cells", [](ObjectTerrain& o) { o.lights.cells[1].count = 0; }},
+    {"lights of cells", [](ObjectTerrain& o) { o.lights.cells[1].count = 2; }},
+    {"lights of cells", [](ObjectTerrain& o) { o.lights.cells[0].count = 0xffffffffu; }},
+    {"lights of cells",
+     [](ObjectTerrain& o) {
+       o.lights.points.insert(o.lights.points.begin(), 255, o.lights.points[0]);
+       o.lights.cells[0].count = 257;
+       o.lights.cells[1].first = 257;
+     }},
+    {"bounds of lights", [](ObjectTerrain& o) { o.lights.cells[0].bounds.maxZ = INFINITY; }},
+    {"origins of lights", [](ObjectTerrain& o) { o.lights.cells[0].origin[2] = 1 << 30; }},
+    {"places of lights", [](ObjectTerrain& o) { o.lights.points[1].y = NAN; }},
+    {"places of lights", [](ObjectTerrain& o) { o.lights.points[2].x = 1; }},
+    {"places of lights", [](ObjectTerrain& o) { o.lights.cells[1].bounds.minZ = 0.75f; }},
 };
 
 TEST(ObjectFile, refusesLiesByName) {
@@ -143,6 +162,33 @@ TEST(ObjectFile, refusesLiesByName) {
   many.textures.resize(256, many.textures[0]);
   ASSERT_TRUE(writeObjects(dir / "objects", many));
   EXPECT_FALSE(readObjects(dir / "objects"));
+}
+
+TEST(ObjectFile, ofVersion1HasNoLights) {
+  const test::ScratchDir dir;
+  ASSERT_TRUE(writeObjects(dir / "objects", test::smallObjects(false)));
+  const std::string now = test::readFile(dir / "objects");
+  ObjectTerrain dark = test::smallObjects(false);
+  dark.lights = {};
+  ASSERT_TRUE(writeObjects(dir / "objects", dark));
+  std::string old = test::readFile(dir / "objects");
+  // As it was written before: without the two lengths of nothing at the end.
+  constexpr std::size_t kVersionAt = 8, kSizeAt = 12, kSumAt = 20, kHeader = 28;
+  old.resize(old.size() - 16);
+  const std::uint32_t version = 1;
+  const std::uint64_t size = old.size() - kHeader, sum = checksum(std::string_view(old).substr(kHeader));
+  std::memcpy(&old[kVersionAt], &version, sizeof version);
+  std::memcpy(&old[kSizeAt], &size, sizeof size);
+  std::memcpy(&old[kSumAt], &sum, sizeof sum);
+  test::writeFile(dir / "old", old);
+  const auto read = readObjects(dir / "old");
+  ASSERT_TRUE(read) << toString(read.findings());
+  EXPECT_EQ((*read)->index.instances.size(), 5u);
+  EXPECT_TRUE((*read)->lights.points.empty());
+  std::string newer = now;
+  newer[kVersionAt] = 3;
+  test::writeFile(dir / "newer", newer);
+  EXPECT_FALSE(readObjects(dir / "newer"));
 }
 
 TEST(ObjectFile, mayBeEmpty) {

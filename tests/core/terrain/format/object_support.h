@@ -4,7 +4,7 @@
 
 #include "trimtab/terrain/format/object_file.h"
 
-/// A small set of objects: two models, three cells, five instances.
+/// A small set of objects: two models, three cells, five instances, three lights in two cells.
 namespace trimtab::test {
 
 inline terrain::ObjectTerrain smallObjects(bool textured) {
@@ -41,6 +41,8 @@ inline terrain::ObjectTerrain smallObjects(bool textured) {
   index.cells = {{box, {0, 0, 0}, 0, 5, 3, 4, 0.5f},
                  {box, {0, 0, 0}, 0, 2, 2, 4, 0.5f},
                  {box, {1, 0, 0}, 2, 3, 3, 4, 0.5f}};
+  objects.lights.points = {{0, 0, 1, {255, 0, 0, 255}}, {4, 0, 1}, {-3, 2, 0.5f, {0, 255, 0, 255}}};
+  objects.lights.cells = {{{16, 0, 1, 20, 0, 1}, {1, 0, 0}, 0, 2}, {{-4, 1, 0, 0, 2, 1}, {0, 0, 0}, 2, 1}};
   return objects;
 }
 

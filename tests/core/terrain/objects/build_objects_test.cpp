@@ -234,6 +234,87 @@ TEST(BuildObjects, putsAMillionInOnePlace) {
   EXPECT_EQ(built->index.cells.size(), 1u);
 }
 
+/// A lamp without a mesh, and a mast with a red light on its top.
+std::vector<std::optional<BuiltModel>> litModels() {
+  SourceModel lamp = test::modelOf("lamp", {SourceMesh{}}),
+              mast = test::modelOf("mast", {test::ball(2, 3, 0)});
+  lamp.lights = {{{0, 0, 6}, {255, 200, 120, 255}}};
+  mast.lights = {{{0, 10, 40}, {255, 0, 0, 255}}, {{NAN, 0, 0}}, {{0, 0, 30000}}};
+  const auto built = buildModel(mast);
+  EXPECT_EQ(built.findings().size(), 1u) << toString(built.findings());
+  EXPECT_NE(toString(built.findings()).find("lights within 20000 m of the model's origin, found 2 others"),
+            std::string::npos)
+      << toString(built.findings());
+  return {*buildModel(lamp), *built};
+}
+
+TEST(BuildObjects, placesLightsWithTheirModels) {
+  PlacementList list = scattered(2000, 0.3);
+  const auto built = buildObjects(litModels(), list, Slope(), kFrame, "list");
+  ASSERT_TRUE(built) << toString(built.findings());
+  EXPECT_EQ(built->index.instances.size(), 1000u) << "lamps have no mesh";
+  ASSERT_EQ(built->lights.points.size(), 2000u);
+  EXPECT_EQ(built->lights.cells.size(), 8u);
+  const test::ScratchDir dir;
+  ASSERT_TRUE(writeObjects(dir / "objects", *built));
+  const auto read = readObjects(dir / "objects");
+  ASSERT_TRUE(read) << toString(read.findings());
+  std::vector<Vec3> red, warm;
+  for (const LightIndex::Cell& cell : built->lights.cells)
+    for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) {
+      const LightPoint& p = built->lights.points[i];
+      (p.colour[1] == 0 ? red : warm)
+          .push_back({16.0 * cell.origin[0] + double{p.x}, 16.0 * cell.origin[1] + double{p.y},
+                      16.0 * cell.origin[2] + double{p.z}});
+    }
+  ASSERT_EQ(red.size(), 1000u);
+  for (const ListedPlacement& p : list.placements) {
+    // A lamp is above its foot; a mast's light also ahead of it, as its heading says.
+    const double up = (p.model == 0 ? 6 : 40) * p.scale, ahead = p.model == 0 ? 0 : 10 * p.scale;
+    const double turn = p.heading.value() * 0.017453292519943295;
+    const GeodeticPosition foot{p.latitude, p.longitude, *Slope().heightAt(p.latitude, p.longitude)};
+    const Mat3 axes = eastNorthUp(p.latitude, p.longitude);
+    const Vec3 place = kFrame.fromGeodetic(foot) +
+                       kFrame.ecefToLocal() * (axes.row[0] * (ahead * std::sin(turn)) +
+                                               axes.row[1] * (ahead * std::cos(turn)) + axes.row[2] * up);
+    double nearest = 1e9;
+    for (const Vec3& at : p.model == 0 ? warm : red) nearest = std::min(nearest, length(at - place));
+    ASSERT_LT(nearest, 0.01) << "line " << p.line;
+  }
+}
+
+TEST(BuildObjects, refusesTooManyLightsByNameAndPlacesTheRest) {
+  auto models = litModels();
+  models[1]->lights.assign(1000000, {{0, 0, 40}});
+  PlacementList list = scattered(100, 0.1);
+  const auto built = buildObjects(models, list, Slope(), kFrame, "list.csv");
+  ASSERT_TRUE(built) << toString(built.findings());
+  EXPECT_EQ(built->lights.points.size(), 50u);
+  EXPECT_EQ(built->index.instances.size(), 50u);
+  EXPECT_NE(
+      toString(built.findings())
+          .find("list.csv: mast: expected at most 4000000 lights on a terrain, found 1000000 in each of "
+                "50 rows, after 50 of other models"),
+      std::string::npos)
+      << toString(built.findings());
+}
+
+TEST(BuildObjects, ofLightsAloneIsATerrainToo) {
+  auto models = litModels();
+  PlacementList list = scattered(10, 0.1);
+  for (ListedPlacement& p : list.placements) p.model = 0;
+  list.placements[3].scale = 5000;  // its lamp would be 30 km high
+  const auto built = buildObjects(models, list, Slope(), kFrame, "list.csv");
+  ASSERT_TRUE(built) << toString(built.findings());
+  EXPECT_EQ(built->lights.points.size(), 9u);
+  EXPECT_TRUE(built->index.cells.empty());
+  EXPECT_NE(toString(built.findings()).find("list.csv:5: scale"), std::string::npos)
+      << toString(built.findings());
+  const test::ScratchDir dir;
+  ASSERT_TRUE(writeObjects(dir / "objects", *built));
+  EXPECT_TRUE(readObjects(dir / "objects"));
+}
+
 TEST(BuildObjects, stopsWhenAsked) {
   const auto built = buildObjects(twoModels(), scattered(100, 0.1), Slope(), kFrame, "list",
                                   [](double, const std::string&) { return false; });

@@ -20,6 +20,7 @@ struct ObjectLimits {
   static constexpr std::size_t kTextures = 255;
   static constexpr std::int32_t kCellOrigin = 1 << 20;  ///< either way, in steps of 16 m
   static constexpr float kFromOriginM = 2e7f;           ///< bounds and instances, either way
+  static constexpr std::size_t kLights = 4000000;       ///< 64 MB on the GPU
 };
 
 /// Writes the file atomically; returns the checksum of its body, which the manifest states.
@@ -27,7 +28,8 @@ Result<std::uint64_t> writeObjects(const std::filesystem::path& file, const Obje
 
 /// Reads a file of objects. Whatever its bytes are, what is returned can be used without further checks:
 /// every number of a mesh, a vertex, a texture, a model or an instance is in its array, instances and
-/// triangles are each in one leaf cell and one mesh, errors rise and all numbers are finite.
+/// triangles are each in one leaf cell and one mesh, lights in one cell whose box holds them, errors rise and
+/// all numbers are finite.
 /// `sum`: the checksum that the body must have, hexadecimal; empty accepts any.
 Result<std::shared_ptr<const ObjectTerrain>> readObjects(const std::filesystem::path& file,
                                                          const std::string& sum = {});
@@ -38,6 +40,7 @@ struct ObjectCounts {
   std::uint64_t triangles = 0;        ///< of all levels, each once
   std::uint64_t finestTriangles = 0;  ///< of all instances, each by its finest level
   std::uint64_t coarsestTriangles = 0;
+  std::size_t lights = 0;
 };
 ObjectCounts countObjects(const ObjectTerrain& objects);
 

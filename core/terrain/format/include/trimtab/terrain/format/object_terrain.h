@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trimtab/frame/light_index.h"
 #include "trimtab/frame/object_index.h"
 
 /// The objects of a database: what stands on its ground, with meshes and textures.
@@ -46,6 +47,7 @@ struct ObjectTerrain {
   std::vector<ObjectVertex> vertices;
   std::vector<std::uint32_t> indices;   ///< three per triangle, from the mesh's first vertex
   std::vector<ObjectTexture> textures;  ///< at most 255
+  LightIndex lights;                    ///< in the frame of `index`
 };
 
 }  // namespace trimtab::terrain

@@ -24,8 +24,9 @@ inline constexpr float kLeastErrorM = 0.001f;
 
 struct BuiltModel {
   std::string name;
-  std::vector<BuiltLevel> levels;       ///< finest first; errors rise, triangles fall
+  std::vector<BuiltLevel> levels;       ///< finest first; errors rise, triangles fall; none: lights alone
   std::vector<ObjectTexture> textures;  ///< in the order of the source's
+  std::vector<SourceLight> lights = {};
 };
 
 /// What a model may hold at most.
@@ -47,7 +48,8 @@ struct ModelLimits {
 /// stay.
 ///
 /// Triangles that cannot be drawn (not a number, no area, corners that are not there) are left out with a
-/// warning. Refuses a model without any other triangle, one with too many, and one that reaches farther than
+/// warning, and so are lights that are not numbers or beyond ObjectLimits::kRadiusM. Refuses a model with
+/// neither a light nor any other triangle, one with too many, and one that reaches farther than
 /// ObjectLimits::kRadiusM. The same model gives the same result to the bit.
 Result<BuiltModel> buildModel(const SourceModel& source);
 

@@ -26,8 +26,9 @@ inline constexpr double kLeafSideM = 16;
 /// findings. Three kinds of placements are left out: those off the ground and those that their scale makes
 /// larger than ObjectLimits::kRadiusM, with a warning for each row (the first FindingList::kMost, then their
 /// number), and those of models that are none, with one for each model. Fails if none is left, if the models'
-/// meshes outgrow what indices can count, or if `progress` says so. Of more than 255 textures the last ones
-/// become their average colour, with a warning.
+/// meshes outgrow what indices can count, or if `progress` says so. Lights of a model are placed with it; a
+/// model that would bring a terrain beyond ObjectLimits::kLights is placed without, with a warning. Of more
+/// than 255 textures the last ones become their average colour, with a warning.
 Result<ObjectTerrain> buildObjects(std::span<const std::optional<BuiltModel>> models,
                                    const PlacementList& list, const GroundHeights& ground,
                                    const LocalFrame& frame, const std::string& where,

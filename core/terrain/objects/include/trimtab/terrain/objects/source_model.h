@@ -36,10 +36,17 @@ struct SourceTexture {
   std::vector<std::uint8_t> pixels;  ///< width * height * 4
 };
 
+/// A light, in the model's axes like a vertex.
+struct SourceLight {
+  std::array<float, 3> position{};
+  std::array<std::uint8_t, 4> colour{255, 255, 255, 255};  ///< sRGB; the last is not used
+};
+
 struct SourceModel {
   std::string name;                ///< as the placements call it
   std::vector<SourceMesh> levels;  ///< finest first; at least one
   std::vector<SourceTexture> textures;
+  std::vector<SourceLight> lights = {};
 };
 
 /// Returns a checksum of all that a model holds but its name: two files that hold the same have the same.
