@@ -11,6 +11,7 @@
 #include <osg/Texture>
 #include <osg/Transform>
 #include <osg/TriangleIndexFunctor>
+#include <osgSim/LightPointNode>
 
 #include <algorithm>
 #include <array>
@@ -127,20 +128,21 @@ std::uint8_t byteOf(double share) {
   return static_cast<std::uint8_t>(std::lround(255 * (share > 0 ? std::min(share, 1.0) : 0)));
 }
 
-/// Collects triangles along a path of transforms and states.
+/// Collects triangles and lights along a path of transforms and states.
 class Flattener final : public osg::NodeVisitor {
  public:
   Flattener(double distance, TextureList& textures)
       : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), distance_(distance), textures_(textures) {
     setNodeMaskOverride(0xffffffffu);
-    mesh_.bothSides = false;
+    out_.mesh.bothSides = false;
   }
-  SourceMesh take() {
-    if (mesh_.indices.empty()) mesh_.bothSides = true;
-    return std::move(mesh_);
+  Flattened take() {
+    if (out_.mesh.indices.empty()) out_.mesh.bothSides = true;
+    return std::move(out_);
   }
 
   void apply(osg::Node& node) override {
+    if (const auto* const lights = dynamic_cast<const osgSim::LightPointNode*>(&node)) add(*lights);
     const Look before = look_;
     if (node.getStateSet() != nullptr) look_.add(*node.getStateSet());
     traverse(node);
@@ -195,7 +197,36 @@ class Flattener final : public osg::NodeVisitor {
     look_ = before;
   }
 
+  void addLight(osg::Vec3d place, osg::Vec4d colour) {
+    const osg::Vec3d p = place * matrix_;
+    out_.lights.push_back({{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())},
+                           {byteOf(colour.r()), byteOf(colour.g()), byteOf(colour.b()), 255}});
+  }
+
+  void add(const osgSim::LightPointNode& node) {
+    for (const osgSim::LightPoint& light : node.getLightPointList()) {
+      if (!light._on) continue;
+      out_.moreOfLights |= light._sector.valid() || light._blinkSequence.valid();
+      addLight(osg::Vec3d(light._position), osg::Vec4d(light._color) * double{light._intensity});
+    }
+  }
+
+  void addPoints(const osg::Geometry& geometry) {
+    const unsigned count = geometry.getVertexArray()->getNumElements();
+    for (unsigned s = 0; s < geometry.getNumPrimitiveSets(); ++s) {
+      const osg::PrimitiveSet& set = *geometry.getPrimitiveSet(s);
+      if (set.getMode() != GL_POINTS) continue;
+      for (unsigned k = 0; k < set.getNumIndices(); ++k) {
+        const unsigned i = set.index(k);
+        if (i >= count) continue;
+        const osg::Vec4d p = elementOf(geometry.getVertexArray(), i, {0, 0, 0, 1});
+        addLight({p.x(), p.y(), p.z()}, colourOf(geometry, i));
+      }
+    }
+  }
+
   void add(const osg::Geometry& geometry) {
+    if (geometry.getVertexArray() != nullptr) addPoints(geometry);
     osg::TriangleIndexFunctor<TriangleList> list;
     geometry.accept(list);
     const osg::Array* const vertices = geometry.getVertexArray();
@@ -206,19 +237,19 @@ class Flattener final : public osg::NodeVisitor {
         y(matrix_(1, 0), matrix_(1, 1), matrix_(1, 2)), z(matrix_(2, 0), matrix_(2, 1), matrix_(2, 2));
     const bool mirrored = (x ^ y) * z < 0;
     const osg::Matrixd turned = osg::Matrixd::inverse(matrix_);
-    const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
+    const auto first = static_cast<std::uint32_t>(out_.mesh.vertices.size());
     const std::uint32_t texture =
         look_.image != nullptr ? textures_.numberOf(*look_.image) : SourceVertex::kNoTexture;
-    for (unsigned i = 0; i < count; ++i) mesh_.vertices.push_back(vertexOf(geometry, i, turned, texture));
+    for (unsigned i = 0; i < count; ++i) out_.mesh.vertices.push_back(vertexOf(geometry, i, turned, texture));
     for (const auto& [a, b, c] : list.triangles) {
       const bool inside = a < count && b < count && c < count;
       // What is not there is for the checks of the model to name.
       const auto at = [&](unsigned i) {
         return inside ? first + i : std::numeric_limits<std::uint32_t>::max();
       };
-      mesh_.indices.insert(mesh_.indices.end(), {at(a), at(mirrored ? c : b), at(mirrored ? b : c)});
+      out_.mesh.indices.insert(out_.mesh.indices.end(), {at(a), at(mirrored ? c : b), at(mirrored ? b : c)});
     }
-    mesh_.bothSides |= !look_.oneSided;
+    out_.mesh.bothSides |= !look_.oneSided;
   }
 
   SourceVertex vertexOf(const osg::Geometry& geometry, unsigned i, const osg::Matrixd& turned,
@@ -255,7 +286,7 @@ class Flattener final : public osg::NodeVisitor {
   TextureList& textures_;
   osg::Matrixd matrix_;
   Look look_;
-  SourceMesh mesh_;
+  Flattened out_;
 };
 
 }  // namespace
@@ -283,7 +314,7 @@ std::vector<double> distancesOf(osg::Node& node) {
   return distances;
 }
 
-SourceMesh flattened(osg::Node& node, double distance, TextureList& textures) {
+Flattened flattened(osg::Node& node, double distance, TextureList& textures) {
   Flattener flattener(distance, textures);
   node.accept(flattener);
   return flattener.take();

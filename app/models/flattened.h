@@ -25,7 +25,12 @@ class TextureList {
 /// alone if there are none. Of ranges in pixels, the reverse is used as a distance.
 std::vector<double> distancesOf(osg::Node& node);
 
-/// Returns all triangles of a graph as they are seen from a distance.
-terrain::SourceMesh flattened(osg::Node& node, double distance, TextureList& textures);
+/// What a graph shows at a distance.
+struct Flattened {
+  terrain::SourceMesh mesh;
+  std::vector<terrain::SourceLight> lights;  ///< points of geometries, and osgSim's light points
+  bool moreOfLights = false;                 ///< some have sectors or blink, which is left out
+};
+Flattened flattened(osg::Node& node, double distance, TextureList& textures);
 
 }  // namespace trimtab::models

@@ -21,22 +21,31 @@ Finding unusable(const std::filesystem::path& file, std::string expected, std::s
 }
 
 /// Turns y up to z up, about x.
-void turnUp(terrain::SourceMesh& mesh) {
-  for (terrain::SourceVertex& v : mesh.vertices)
-    for (auto* const a : {&v.position, &v.normal}) *a = {(*a)[0], -(*a)[2], (*a)[1]};
+void turnUp(Flattened& shown) {
+  const auto turn = [](std::array<float, 3>& a) { a = {a[0], -a[2], a[1]}; };
+  for (terrain::SourceVertex& v : shown.mesh.vertices) turn(v.position), turn(v.normal);
+  for (terrain::SourceLight& light : shown.lights) turn(light.position);
 }
 
 bool same(const terrain::SourceMesh& a, const terrain::SourceMesh& b) {
   return terrain::checksumOf({"", {a}, {}}) == terrain::checksumOf({"", {b}, {}});
 }
 
-terrain::SourceModel modelOf(osg::Node& node, const std::filesystem::path& file) {
+terrain::SourceModel modelOf(osg::Node& node, const std::filesystem::path& file, Findings& findings) {
   terrain::SourceModel model{file.string(), {}, {}};
   TextureList textures;
   constexpr std::size_t kMostLevels = 16;
   for (const double distance : distancesOf(node)) {
-    terrain::SourceMesh mesh = flattened(node, distance, textures);
-    if (osgDB::getLowerCaseFileExtension(file.string()) == "ac") turnUp(mesh);
+    Flattened shown = flattened(node, distance, textures);
+    if (osgDB::getLowerCaseFileExtension(file.string()) == "ac") turnUp(shown);
+    // Lights have no levels: those of the nearest one that has any are the model's.
+    if (model.lights.empty() && !shown.lights.empty()) {
+      model.lights = std::move(shown.lights);
+      if (shown.moreOfLights)
+        findings.push_back({Severity::warning, file.string(), "", "lights that shine always and all around",
+                            "some with a sector or a sequence of blinking, which is left out"});
+    }
+    terrain::SourceMesh& mesh = shown.mesh;
     // Nothing is shown beyond the last range, nor before the first.
     if (mesh.indices.empty() || (!model.levels.empty() && same(mesh, model.levels.back()))) continue;
     model.levels.push_back(std::move(mesh));
@@ -67,7 +76,11 @@ Result<terrain::SourceModel> readModel(const std::filesystem::path& file) {
     const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
     options->setObjectCacheHint(osgDB::Options::CACHE_NONE);
     node = osgDB::readRefNodeFile(file.string(), options.get());
-    if (node) return Result<terrain::SourceModel>(modelOf(*node, file), watch.findings());
+    if (node) {
+      Findings findings = watch.findings();
+      terrain::SourceModel model = modelOf(*node, file, findings);
+      return Result<terrain::SourceModel>(std::move(model), std::move(findings));
+    }
   } catch (const std::exception& thrown) {
     return unusable(file, "a model that can be read", thrown.what());
   }

@@ -9,6 +9,7 @@ namespace trimtab::scene {
 
 void ObjectDrawer::setTerrain(const std::shared_ptr<const terrain::Database>& database) {
   objects_ = database ? database->objects() : nullptr;
+  lights_.setTerrain(objects_);
   if (objects_ && objects_->index.cells.empty()) objects_ = nullptr;
   key_.reset();
   visible_ = {};
@@ -23,6 +24,7 @@ void ObjectDrawer::initialize() {
 }
 
 void ObjectDrawer::prepare(const FrameInProgress& frame, const HiddenCells& hidden) {
+  lights_.prepare(frame);
   if (!objects_ || !layer_) return;
   const FrameRequest& r = frame.request;
   const EyePose eye = r.frozenEye.value_or(frame.eye);
@@ -85,9 +87,11 @@ void ObjectDrawer::draw(ScenePrograms& programs, bool wire) {
   if (wire) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   drawWith(programs, SceneShaders::objects, wire);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  if (!wire) lights_.draw(programs);
 }
 
 void ObjectDrawer::drawNumbers(ScenePrograms& programs) {
+  if (shown().drawn.empty()) return;
   std::vector<std::uint32_t> numbers;
   for (const DrawnObject& object : shown().drawn) numbers.push_back(object.instance);
   layer_->setInstances(shown(), numbers);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/scene/objects/light_drawer.h"
 #include "core/scene/objects/object_layer.h"
 #include "core/scene/passes/scene_programs.h"
 #include "core/scene/terrain/terrain_drawer.h"
@@ -21,15 +22,19 @@ class ObjectDrawer {
   /// Starts with the objects of another terrain. If there is a context, it must be current.
   void setTerrain(const std::shared_ptr<const terrain::Database>& database);
   void initialize();
-  void release() { layer_.reset(); }
+  void release() {
+    layer_.reset();
+    lights_.release();
+  }
 
   /// Selects what the frame draws and uploads it. `hidden` must be of this frame.
   void prepare(const FrameInProgress& frame, const HiddenCells& hidden);
-  /// Returns whether the last prepared frame draws any object.
-  bool drawsAny() const { return layer_ && !shown().drawn.empty(); }
-  /// Draws them, with depths tested against what is there.
+  /// Returns whether the last prepared frame draws any object or light.
+  bool drawsAny() const { return (layer_ && !shown().drawn.empty()) || lights_.drawsAny(); }
+  /// Draws them, with depths tested against what is there. As wires it draws no lights.
   void draw(ScenePrograms& programs, bool wire);
   /// Draws the same into an image of numbers: each pixel gets the number of its instance in the index.
+  /// Lights have none.
   void drawNumbers(ScenePrograms& programs);
   /// Returns what the last prepared frame draws.
   ObjectFrame frame() const;
@@ -57,6 +62,7 @@ class ObjectDrawer {
   VisibleObjects visible_;
   VisibleObjects all_;  ///< also what is culled, if reasons are shown
   std::unique_ptr<ObjectLayer> layer_;
+  LightDrawer lights_;
 };
 
 }  // namespace trimtab::scene

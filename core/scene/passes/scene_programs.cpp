@@ -96,6 +96,7 @@ ScenePrograms::ScenePrograms()
                 {"object.vert.glsl", "object.frag.glsl", {"TEXTURED"}},
                 {"object.vert.glsl", "object.frag.glsl", {"NODE_IDS"}},
                 {"object.vert.glsl", "object.frag.glsl", {"TEXTURED", "NODE_IDS"}},
+                {"light_point.vert.glsl", "light_point.frag.glsl"},
                 {"tree_flat.vert.glsl", "line.frag.glsl"},
                 {"line.vert.glsl", "line.frag.glsl"},
                 {"screen.vert.glsl", "sky.frag.glsl"},

@@ -47,6 +47,7 @@ enum class SceneShaders {
   textured_objects,
   object_numbers,
   textured_object_numbers,
+  lights,
   tree_picture,
   lines,
   sky,
@@ -74,7 +75,7 @@ class ScenePrograms {
   void setAir(const SceneView& view);
   void setDepthView(const DepthView& depth, const ViewShape& shape);
 
-  std::array<ShaderVariants, 16> shaders_;
+  std::array<ShaderVariants, 17> shaders_;
   Uniforms uniforms_, ofDepth_;
   unsigned defines_ = 0;
   SceneView view_;

@@ -43,7 +43,7 @@ std::size_t bytesOf(const SourceModel& model) {
   for (const SourceMesh& mesh : model.levels)
     bytes += mesh.vertices.size() * sizeof(SourceVertex) + mesh.indices.size() * sizeof(std::uint32_t);
   for (const SourceTexture& texture : model.textures) bytes += texture.pixels.size();
-  return bytes;
+  return bytes + model.lights.size() * sizeof(SourceLight);
 }
 
 /// Adds findings of one source to those of all; as warnings, if the others can be used without it.
@@ -105,6 +105,8 @@ void stretch(SourceModel& model, const std::array<double, 3>& by) {
         v.position[k] *= static_cast<float>(by[k]);
         v.normal[k] /= static_cast<float>(by[k]);
       }
+  for (SourceLight& light : model.lights)
+    for (std::size_t k = 0; k < 3; ++k) light.position[k] *= static_cast<float>(by[k]);
 }
 
 }  // namespace

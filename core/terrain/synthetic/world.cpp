@@ -33,6 +33,7 @@ constexpr double kMostSlopeOfWood = 0.75, kTreeLineM = 1200, kThinningM = 500;
 constexpr double kTreesPerKm2 = 3500, kMostTrees = 195000, kShareWooded = 0.17;
 constexpr float kBrookM2 = 1.5e7f;
 constexpr double kTownM = 650, kPylonStepM = 300;
+constexpr double kRunwayM = 2700, kRunwayWideM = 45;
 
 class Planter {
  public:
@@ -45,6 +46,7 @@ class Planter {
     chooseTown();
     buildAirfield();
     buildTown();
+    lightStreets();
     buildPylons();
     plantWoods();
     return std::move(text_);
@@ -125,6 +127,20 @@ class Planter {
     for (int i = 0; i < 12; ++i) put(WorldModel::house, beside(-300 + 55.0 * i, -430), kRunwayDeg);
     for (int i = 0; i < 60; ++i)
       put(WorldModel::poplar, beside(-450 + 15.0 * i, -470), 0, 0.7 + 0.3 * chance());
+    lightRunway();
+  }
+
+  /// Lights along both edges, and across both ends: green towards who lands, in the direction of the shipped
+  /// flight, and red at the far end.
+  void lightRunway() {
+    const auto on = [](double ahead, double right) { return Spot{}.moved(kRunwayDeg, ahead, right); };
+    for (double ahead = -kRunwayM / 2; ahead <= kRunwayM / 2; ahead += 60)
+      for (const double side : {-1.0, 1.0})
+        put(WorldModel::runwayLight, on(ahead, side * kRunwayWideM / 2), 0);
+    for (double right = -kRunwayWideM / 2; right <= kRunwayWideM / 2; right += 5) {
+      put(WorldModel::thresholdLight, on(kRunwayM / 2 + 5, right), 0);
+      put(WorldModel::runwayEndLight, on(-kRunwayM / 2 - 5, right), 0);
+    }
   }
 
   /// Streets 70 m apart with houses on both sides, crossed every 180 m; flats and the church in the middle.
@@ -150,6 +166,15 @@ class Planter {
                 town_.moved(streetDeg_, along + 8 * chance(), 70.0 * street + 33 * side), 360 * chance(),
                 0.6 + 0.4 * chance());
         }
+  }
+
+  /// A lamp every 44 m on one side of each street of the town.
+  void lightStreets() {
+    for (int street = -9; street <= 9; ++street)
+      for (double along = -kTownM; along <= kTownM; along += 44) {
+        const Spot at = town_.moved(streetDeg_, along, 70.0 * street + 5);
+        if (at.distance(town_) < kTownM && within(at)) put(WorldModel::streetLight, at, 0);
+      }
   }
 
   /// A straight line over the hills north of the flat, where these begin.

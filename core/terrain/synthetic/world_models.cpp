@@ -32,7 +32,11 @@ constexpr const char* kWorldColours =
     "newmtl concrete\nKd 0.68 0.67 0.64\n"
     "newmtl glass\nKd 0.22 0.29 0.35\n"
     "newmtl metal\nKd 0.60 0.64 0.66\n"
-    "newmtl steel\nKd 0.45 0.47 0.48\n";
+    "newmtl steel\nKd 0.45 0.47 0.48\n"
+    "newmtl white-light\nKd 1.00 0.96 0.85\n"
+    "newmtl green-light\nKd 0.30 1.00 0.45\n"
+    "newmtl red-light\nKd 1.00 0.20 0.15\n"
+    "newmtl warm-light\nKd 1.00 0.78 0.45\n";
 
 /// Collects triangles as text of an .obj, in axes east, north and up.
 class ModelText {
@@ -128,6 +132,14 @@ class ModelText {
     v = v * (wide / 2 / length(v));
     const auto ring = [&](Vec3 p) { return std::vector<Vec3>{p - u - v, p + u - v, p + u + v, p - u + v}; };
     between(ring(from), ring(to));
+  }
+
+  /// A light so high above the ground.
+  void light(const char* colour, double height) {
+    paint(colour);
+    row("v", {0, 0, height});
+    ++count_;
+    text_ += "p " + std::to_string(count_) + "\n";
   }
 
   std::string text() const { return "mtllib colours.mtl\n" + text_; }
@@ -311,6 +323,18 @@ std::string textOf(WorldModel model) {
       break;
     case WorldModel::pylon:
       pylon(m);
+      break;
+    case WorldModel::runwayLight:
+      m.light("white-light", 0.5);
+      break;
+    case WorldModel::thresholdLight:
+      m.light("green-light", 0.5);
+      break;
+    case WorldModel::runwayEndLight:
+      m.light("red-light", 0.5);
+      break;
+    case WorldModel::streetLight:
+      m.light("warm-light", 7);
       break;
   }
   return m.text();

@@ -21,11 +21,31 @@ enum class WorldModel {
   church,
   hangar,
   controlTower,
-  pylon
+  pylon,
+  // Lights without a mesh.
+  runwayLight,
+  thresholdLight,
+  runwayEndLight,
+  streetLight
 };
-inline constexpr const char* kWorldModelNames[] = {
-    "fir",   "spruce",      "pine",  "oak",    "birch",  "poplar",        "bush",
-    "house", "large-house", "flats", "church", "hangar", "control-tower", "pylon"};
+inline constexpr const char* kWorldModelNames[] = {"fir",
+                                                   "spruce",
+                                                   "pine",
+                                                   "oak",
+                                                   "birch",
+                                                   "poplar",
+                                                   "bush",
+                                                   "house",
+                                                   "large-house",
+                                                   "flats",
+                                                   "church",
+                                                   "hangar",
+                                                   "control-tower",
+                                                   "pylon",
+                                                   "runway-light",
+                                                   "threshold-light",
+                                                   "runway-end-light",
+                                                   "street-light"};
 
 /// Writes NAME.obj for each of them, and the colours that they share, into a folder that is made if there is
 /// none. Metres, y up, the front towards -z; closed meshes, anticlockwise from outside.

@@ -9,6 +9,8 @@
 #include <osg/Texture2D>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
+#include <osgSim/LightPointNode>
+#include <osgSim/Sector>
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +117,47 @@ TEST_F(ReadModel, readsWavefrontWithItsMaterial) {
   EXPECT_EQ(model->levels[0].triangles(), 2u);
   EXPECT_EQ(boundsOf(model->levels[0]), (std::array<float, 6>{0, 0, 0, 3, 1, 9}));
   EXPECT_EQ(model->levels[0].vertices[0].colour, (std::array<std::uint8_t, 4>{255, 0, 0, 255}));
+}
+
+TEST_F(ReadModel, readsPointsAsLightsWithTheirMaterial) {
+  written("m.mtl", "newmtl red\nKd 1 0 0\n");
+  const auto model =
+      readModel(written("lamp.obj", "mtllib m.mtl\nv 0 6 0\nv 1 2 -3\nusemtl red\np 1\np 2\n"));
+  ASSERT_TRUE(model) << toString(model.findings());
+  EXPECT_TRUE(model.findings().empty()) << toString(model.findings());
+  ASSERT_EQ(model->lights.size(), 2u);
+  EXPECT_EQ(model->lights[0].position, (std::array<float, 3>{0, 0, 6}));
+  EXPECT_EQ(model->lights[1].position, (std::array<float, 3>{1, 3, 2}));
+  EXPECT_EQ(model->lights[0].colour, (std::array<std::uint8_t, 4>{255, 0, 0, 255}));
+  const auto built = terrain::buildModel(*model);
+  ASSERT_TRUE(built) << toString(built.findings());
+  EXPECT_TRUE(built->levels.empty());
+  EXPECT_EQ(built->lights.size(), 2u);
+  const auto other =
+      readModel(written("lamp2.obj", "mtllib m.mtl\nv 0 7 0\nv 1 2 -3\nusemtl red\np 1\np 2\n"));
+  ASSERT_TRUE(other);
+  EXPECT_NE(terrain::checksumOf(*model), terrain::checksumOf(*other)) << "a bake would keep the old lights";
+}
+
+TEST_F(ReadModel, readsLightPointsAndSaysOnceWhatItLeavesOut) {
+  const osg::ref_ptr<osgSim::LightPointNode> lights = new osgSim::LightPointNode;
+  for (int i = 0; i < 5; ++i) {
+    osgSim::LightPoint light(osg::Vec3(static_cast<float>(i), 0, 1), osg::Vec4(0, 1, 0, 1));
+    light._intensity = 0.5f;
+    light._on = i != 4;
+    if (i < 2) light._sector = new osgSim::ElevationSector(0, 1);
+    lights->addLightPoint(light);
+  }
+  const osg::ref_ptr<osg::MatrixTransform> moved =
+      new osg::MatrixTransform(osg::Matrix::translate(10, 20, 30));
+  moved->addChild(lights);
+  const auto model = readModel(written("edge.osgb", *moved));
+  ASSERT_TRUE(model) << toString(model.findings());
+  ASSERT_EQ(model->lights.size(), 4u) << "one is off";
+  EXPECT_EQ(model->lights[3].position, (std::array<float, 3>{13, 20, 31}));
+  EXPECT_EQ(model->lights[3].colour, (std::array<std::uint8_t, 4>{0, 128, 0, 255}));
+  ASSERT_EQ(model.findings().size(), 1u) << toString(model.findings());
+  EXPECT_NE(toString(model.findings()).find("some with a sector"), std::string::npos);
 }
 
 TEST_F(ReadModel, makesALevelOfEachRange) {

@@ -133,6 +133,47 @@ void hiddenRows(Report& report, const std::shared_ptr<const terrain::Database>& 
   }
 }
 
+/// The sample's ground with 16,384 lights on 5 km, with and without them, at 300 ft in flight.
+void lightRows(Report& report, const std::shared_ptr<const terrain::Database>& ground) {
+  const auto lit = std::make_shared<terrain::ObjectTerrain>();
+  lit->index.frame = ground->patches()->index().frame;
+  const GeodeticPosition middle = placesOver(*ground, 1, 0, 1, false).front();
+  // Squares of 16 x 16 lights, 40 m apart.
+  std::vector<Vec3> places;
+  for (int square = 0; square < 64; ++square)
+    for (int i = 0; i < 256; ++i) {
+      const double east = 40.0 * (16 * (square % 8) + i % 16 - 64),
+                   north = 40.0 * (16 * (square / 8) + i / 16 - 64);
+      GeodeticPosition at{
+          middle.latitude + Degrees{north / 111e3}, middle.longitude + Degrees{east / 89e3}, {}};
+      at.height = ground->heightAt(at.latitude, at.longitude).value_or(Metres{0}) + Metres{7};
+      places.push_back(lit->index.frame.fromGeodetic(at));
+    }
+  test::addLights(*lit, places, LightIndex::kMostInCell);
+  BenchScene scene(std::make_shared<const test::ObjectsOn>(ground, lit));
+  if (!scene.ready()) return;
+  const auto taken = [&](int i, double lightPx) {
+    FrameRequest r = proposed(scene.request());
+    r.terrain.form = TerrainForm::patches;
+    r.waitForPages = true;
+    r.eye = middle;
+    r.eye.height = r.eye.height + Metres{91};
+    r.eye.latitude = r.eye.latitude + Degrees{1.7 / 111e3 * (i + 1)};
+    r.attitude = {Degrees{-3}, Degrees{0}, Degrees{40.0}};
+    r.lightPx = lightPx;
+    const double before = processorMs();
+    scene.draw(r);
+    return processorMs() - before;
+  };
+  taken(-1, 3);
+  const Pairs pairs = inTurn(
+      report.quick() ? 20 : 100, [&](int i) { return taken(i, 3); }, [&](int i) { return taken(i, 0); });
+  report.add(
+      rowOf(pairs, {.id = "objects.lights",
+                    .what = "Processor time of a frame with lights of 3 px, 16,384 of them over 5 km, 300 ft",
+                    .peer = "the same without lights"}));
+}
+
 /// Bytes that the process holds in memory.
 double residentMB() {
   malloc_trim(0);
@@ -248,6 +289,7 @@ int main(int argc, char** argv) {
   if (!ground) return 1;
   if (report.wants("objects.sparse")) bench::peerRows(report, *ground, "sparse", 19, 0.4);
   if (report.wants("objects.dense")) bench::peerRows(report, *ground, "dense", 5, 0.6);
+  if (report.wants("objects.lights")) bench::lightRows(report, ground);
   if (report.wants("objects.hidden"))
     bench::hiddenRows(report, std::make_shared<const test::ObjectsOn>(
                                   ground, bench::scatteredOver(*ground, bench::kInstances, 19)));

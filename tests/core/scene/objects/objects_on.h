@@ -168,4 +168,27 @@ inline std::shared_ptr<terrain::ObjectTerrain> scattered(const terrain::Database
   return made;
 }
 
+/// Adds lights at places of the local frame, so many in a cell, in their order.
+inline void addLights(terrain::ObjectTerrain& to, const std::vector<Vec3>& places, std::size_t inCell = 1) {
+  for (std::size_t first = 0; first < places.size(); first += inCell) {
+    LightIndex::Cell cell;
+    const auto steps = [](double v) { return static_cast<std::int32_t>(std::lround(v / 16)); };
+    cell.origin = {steps(places[first].x), steps(places[first].y), steps(places[first].z)};
+    cell.first = static_cast<std::uint32_t>(to.lights.points.size());
+    cell.bounds = {1e9f, 1e9f, 1e9f, -1e9f, -1e9f, -1e9f};
+    for (std::size_t i = first; i < std::min(first + inCell, places.size()); ++i, ++cell.count) {
+      const Vec3& p = places[i];
+      const auto in = [&](double at, std::size_t axis) {
+        return static_cast<float>(at - 16.0 * cell.origin[axis]);
+      };
+      to.lights.points.push_back({in(p.x, 0), in(p.y, 1), in(p.z, 2), {255, 0, 255, 255}});
+      const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
+      Box& b = cell.bounds;
+      b = {std::min(b.minX, x - 0.1f), std::min(b.minY, y - 0.1f), std::min(b.minZ, z - 0.1f),
+           std::max(b.maxX, x + 0.1f), std::max(b.maxY, y + 0.1f), std::max(b.maxZ, z + 0.1f)};
+    }
+    to.lights.cells.push_back(cell);
+  }
+}
+
 }  // namespace trimtab::test
