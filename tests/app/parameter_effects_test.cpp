@@ -11,7 +11,6 @@
 #include "tests/core/scene/terrain/patched_terrain.h"
 #include "tests/core/scene/terrain/steep_roofs.h"
 #include "tests/core/scene/terrain/synthetic_trees.h"
-#include "trimtab/culling/select_objects.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/host/encoder.h"
@@ -75,10 +74,7 @@ class ParameterEffects : public test::SceneTest {
     const auto trees = std::make_shared<test::TreeTerrain>(std::make_shared<const test::SyntheticTerrain>(
         4, 1.0 / 1200, GeodeticPosition{Degrees{36.4}, Degrees{128.1}, Metres{0}}, test::mountains));
     const auto objects = test::scattered(*trees, 1000, 4, 8, 3);
-    std::vector<Vec3> lights;
-    for (std::uint32_t i = 0; i < objects->index.instances.size(); ++i)
-      lights.push_back(placeOfObject(objects->index, i) + Vec3{0, 0, 100});
-    test::addLights(*objects, lights);
+    test::lightEach(*objects, Metres{100});
     use(std::make_shared<test::ObjectsOn>(trees, objects));
   }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "trimtab/culling/select_objects.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/format/object_terrain.h"
 #include "trimtab/terrain/format/patch_terrain.h"
@@ -189,6 +190,14 @@ inline void addLights(terrain::ObjectTerrain& to, const std::vector<Vec3>& place
     }
     to.lights.cells.push_back(cell);
   }
+}
+
+/// Adds a light so far above each instance.
+inline void lightEach(terrain::ObjectTerrain& to, Metres above) {
+  std::vector<Vec3> places;
+  for (std::uint32_t i = 0; i < to.index.instances.size(); ++i)
+    places.push_back(placeOfObject(to.index, i) + Vec3{0, 0, above.value()});
+  addLights(to, places);
 }
 
 }  // namespace trimtab::test
