@@ -201,6 +201,19 @@ std::uint32_t levelOfObject(const ObjectIndex& index, const ObjectInstance& inst
   });
 }
 
+void findHiddenCells(const ObjectIndex& index, const DepthPyramid& map, const EyePose& eye,
+                     const ViewShape& view, std::vector<std::uint8_t>& hidden) {
+  hidden.assign(index.cells.size(), 0);
+  const Frustum frustum(eye, view);
+  const auto cells = static_cast<std::uint32_t>(index.cells.size());
+  for (std::uint32_t cell = 0; cell < cells;) {
+    const ObjectIndex::Cell& c = index.cells[cell];
+    const bool seen = frustum.mayShow(c.bounds), behind = seen && map.isHidden(c.bounds, eye, view);
+    if (behind) std::fill(hidden.begin() + cell, hidden.begin() + c.end, std::uint8_t{1});
+    cell = seen && !behind ? cell + 1 : c.end;
+  }
+}
+
 std::vector<Relief> reliefsOfCells(const ObjectIndex& index) {
   std::vector<Relief> reliefs;
   reliefs.reserve(index.cells.size());

@@ -72,7 +72,6 @@ struct Renderer::Impl {
   std::unique_ptr<Gl> gl;
 
   std::array<TerrainDrawer*, 3> forms() { return {&tiles, &patches, &trees}; }
-  TerrainDrawer* drawerOf(TerrainForm form);
   SceneView viewOf(const FrameRequest& r) const;
   FrameResult prepare(const FrameRequest& r, SceneView& view);
   const FrameBuffer& scene() const { return lastScene == lastView ? gl->frame : gl->small; }
@@ -84,10 +83,6 @@ struct Renderer::Impl {
   /// Reads the numbers of nodes, or of the objects in front of them.
   std::vector<std::uint32_t> readNumbers(bool unculled, bool ofObjects);
 };
-
-TerrainDrawer* Renderer::Impl::drawerOf(TerrainForm form) {
-  return forms()[static_cast<std::size_t>(form)];
-}
 
 void Renderer::Impl::drawForm(const SceneView& view, SceneShaders tilesShaders, bool wire,
                               void (TerrainDrawer::*drawNodes)(unsigned program)) {
@@ -127,13 +122,12 @@ SceneView Renderer::Impl::viewOf(const FrameRequest& r) const {
 /// Lets the terrain prepare what it draws, and merges what it found into the view and the frame's result.
 FrameResult Renderer::Impl::prepare(const FrameRequest& r, SceneView& view) {
   FrameResult result;
-  terrain = view.form ? drawerOf(*view.form) : nullptr;
+  terrain = view.form ? forms()[static_cast<std::size_t>(*view.form)] : nullptr;
   lines.clear();
   if (terrain) {
     const FrameInProgress frame{r, view.eye, view.shape, view.guardBand, gl->clock, report.software};
     PreparedTerrain prepared = terrain->prepare(frame);
-    objects.prepare(frame, prepared.hiddenCells);
-    result.objects = objects.frame();
+    if (!prepared.depth) objects.prepare(frame, prepared.hiddenCells);  // else once the map is drawn
     static_cast<OcclusionResult&>(result) = std::move(prepared.occlusion);
     result.paging = prepared.paging;
     result.patches = terrain == &patches;
@@ -192,8 +186,9 @@ constexpr FramePass kPasses[] = {
     {"test", PassTarget::own, nullptr, [](const DrawnFrame& f) { return f.view.depth.has_value(); },
      [](const DrawnFrame& f) {
        f.renderer.gl->programs.use(SceneShaders::occlusion_test);
-       f.renderer.tiles.removeHidden();
+       const std::span<const std::uint8_t> hiddenCells = f.renderer.tiles.removeHidden();
        f.renderer.gl->clock.lap(&FrameCost::occlusion);
+       f.renderer.objects.prepare(f.renderer.tiles.frame(), hiddenCells);
      }},
     {"clear", PassTarget::scene, nullptr, [](const DrawnFrame&) { return true; },
      [](const DrawnFrame& f) { f.renderer.gl->programs.clear(true); }},
@@ -310,6 +305,7 @@ FrameResult Renderer::Impl::draw(const FrameRequest& r, unsigned fbo) {
   if (terrain) {
     result.visible = terrain->visible();
     result.tilesInCut = terrain->cut().size();
+    result.objects = objects.frame();
     if (terrain == &trees) result.staticLod = trees.frame();
     result.visible.triangles += result.objects.triangles;
     result.visible.vertices += result.objects.vertices;

@@ -1,5 +1,7 @@
 #include "object_drawer.h"
 
+#include <algorithm>
+
 #include "core/scene/gl/gl_api.h"
 #include "trimtab/culling/cut_rule.h"
 #include "trimtab/frame/overlay_colours.h"
@@ -23,12 +25,12 @@ void ObjectDrawer::initialize() {
   layer_->setObjects(objects_.get());
 }
 
-void ObjectDrawer::prepare(const FrameInProgress& frame, const HiddenCells& hidden) {
+void ObjectDrawer::prepare(const FrameInProgress& frame, std::span<const std::uint8_t> hidden) {
   lights_.prepare(frame);
   if (!objects_ || !layer_) return;
   const FrameRequest& r = frame.request;
   const EyePose eye = r.frozenEye.value_or(frame.eye);
-  const bool hides = r.cullingCase == CullingCase::proposed;
+  if (r.cullingCase != CullingCase::proposed) hidden = {};
   Key key{.eye = eye,
           .view = r.view,
           .cullingCase = r.cullingCase,
@@ -36,11 +38,11 @@ void ObjectDrawer::prepare(const FrameInProgress& frame, const HiddenCells& hidd
           .leastPx = r.levers.drawn.smallFeaturePx,
           .farM = r.levers.drawn.objectFarM,
           .airM = farCutM(r),
-          .hidden = hides ? hidden.number : 0,
           .seenFrom = frame.eye.position,
           .byReason = r.overlays.colourByReason,
           .byLevel = r.overlays.colourByLevel};
-  if (r.skips.sameVisible && key_ == key) return;
+  if (r.skips.sameVisible && key_ == key && std::ranges::equal(hidden_, hidden)) return;
+  hidden_.assign(hidden.begin(), hidden.end());
   ObjectQuery query{.eye = eye,
                     .view = r.view,
                     .cull = r.cullingCase != CullingCase::none,
@@ -48,7 +50,7 @@ void ObjectDrawer::prepare(const FrameInProgress& frame, const HiddenCells& hidd
                     .leastPx = key.leastPx,
                     .farM = key.farM,
                     .airM = key.airM,
-                    .hidden = hides ? hidden.flags : std::span<const std::uint8_t>{}};
+                    .hidden = hidden_};
   selectObjects(objects_->index, query, visible_);
   if (key.byReason) {
     query.cull = false;

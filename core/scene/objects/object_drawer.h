@@ -27,8 +27,9 @@ class ObjectDrawer {
     lights_.release();
   }
 
-  /// Selects what the frame draws and uploads it. `hidden` must be of this frame.
-  void prepare(const FrameInProgress& frame, const HiddenCells& hidden);
+  /// Selects what the frame draws and uploads it. `hidden` must be of this frame: one flag per cell, not 0 if
+  /// it is hidden; or nothing.
+  void prepare(const FrameInProgress& frame, std::span<const std::uint8_t> hidden);
   /// Returns whether the last prepared frame draws any object or light.
   bool drawsAny() const { return (layer_ && !shown().drawn.empty()) || lights_.drawsAny(); }
   /// Draws them, with depths tested against what is there. As wires it draws no lights.
@@ -47,7 +48,6 @@ class ObjectDrawer {
     CullingCase cullingCase = CullingCase::none;
     CutRule rule;
     double leastPx = 0, farM = 0, airM = 0;
-    std::uint64_t hidden = 0;
     // What is uploaded depends on these too.
     Vec3 seenFrom;
     bool byReason = false, byLevel = false;
@@ -59,6 +59,7 @@ class ObjectDrawer {
 
   std::shared_ptr<const terrain::ObjectTerrain> objects_;
   std::optional<Key> key_;
+  std::vector<std::uint8_t> hidden_;  ///< the flags that the selection depends on
   VisibleObjects visible_;
   VisibleObjects all_;  ///< also what is culled, if reasons are shown
   std::unique_ptr<ObjectLayer> layer_;

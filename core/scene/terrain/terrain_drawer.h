@@ -31,12 +31,6 @@ struct FrameInProgress {
   bool software;  ///< GL is this processor
 };
 
-/// What a frame's horizon proves of the cells of objects.
-struct HiddenCells {
-  std::span<const std::uint8_t> flags;  ///< one per cell, not 0 if it is hidden; or nothing
-  std::uint64_t number = 0;             ///< another number whenever the flags may be others
-};
-
 /// Holds what preparing a terrain for one frame found, for the renderer to merge.
 struct PreparedTerrain {
   OcclusionResult occlusion;
@@ -46,7 +40,8 @@ struct PreparedTerrain {
   bool oneSided = false;           ///< SceneView::oneSided
   bool treePicture = false;        ///< SceneView::treePicture
   std::vector<LineVertex> lines;   ///< overlay lines
-  HiddenCells hiddenCells;         ///< of the objects on the ground
+  /// One flag per cell of the objects on the ground, not 0 if the horizon hides it; or nothing.
+  std::span<const std::uint8_t> hiddenCells;
 };
 
 /// Binds, while it lives, the buffer textures that tell the terrain's vertex shaders which node a vertex
@@ -94,6 +89,8 @@ class TerrainDrawer {
   /// Draws what prepareNumbers found, each node as its number.
   virtual void drawNumbered(unsigned program) { drawNodes(program, numbered_); }
 
+  /// Returns the frame that was prepared last; one must have been.
+  const FrameInProgress& frame() const { return *frame_; }
   virtual const std::vector<TileDraw>& cut() const = 0;
   virtual const VisibleSet& visible() const = 0;
   virtual DistanceImage readDepthMap() const { return {}; }

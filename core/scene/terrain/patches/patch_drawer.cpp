@@ -62,7 +62,7 @@ PreparedTerrain PatchDrawer::prepare(const FrameInProgress& frame) {
   prepared.counters.cutsSelected = paged.cutsSelected;
   prepared.oneSided = r.backFaces && occlusion_.eyeIsAboveGround() && !r.frozenEye;
   prepared.lines = tileBounds();
-  prepared.hiddenCells = {occlusion_.hiddenBoxes(), occlusion_.horizonNumber()};
+  prepared.hiddenCells = occlusion_.hiddenBoxes();
   return prepared;
 }
 

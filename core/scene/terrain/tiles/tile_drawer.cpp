@@ -7,6 +7,7 @@
 #include "trimtab/culling/box_distance.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/scene/gl_report.h"
+#include "trimtab/terrain/format/object_terrain.h"
 
 namespace trimtab::scene {
 
@@ -56,7 +57,7 @@ PreparedTerrain TileDrawer::prepare(const FrameInProgress& frame) {
   prepared.counters.tilesBuilt = built;
   prepared.oneSided = r.backFaces && occlusion_.eyeIsAboveGround() && !r.frozenEye;
   prepared.lines = tileBounds();
-  prepared.hiddenCells = {occlusion_.hiddenBoxes(), occlusion_.horizonNumber()};
+  prepared.hiddenCells = occlusion_.hiddenBoxes();
   return prepared;
 }
 
@@ -105,10 +106,22 @@ std::optional<DepthView> TileDrawer::prepareDepthMap(const FrameRequest& request
                    defects_.depthMapShiftTexels};
 }
 
-void TileDrawer::removeHidden() {
+std::span<const std::uint8_t> TileDrawer::removeHidden() {
   gl_->occlusion.test(gl_->tiles, flags_);
   removeOccluded(cut_, flags_, visible_);
   visible_.vertices = tileVertices(visible_);
+  const auto objects = database_->objects();
+  if (!objects) return {};
+  // Here and not in the shader, because most cells are settled by a larger one.
+  gl_->occlusion.read(depths_);
+  const int width = gl_->occlusion.width(), height = gl_->occlusion.height();
+  map_.build(depths_, width, height, width, height);
+  ViewShape read = frame_->request.view;
+  const double shift = defects_.depthMapShiftTexels * (read.right - read.left) / width;
+  read.left -= shift;
+  read.right -= shift;
+  findHiddenCells(objects->index, map_, eye_, read, hiddenCells_);
+  return hiddenCells_;
 }
 
 void TileDrawer::drawOccluders() {

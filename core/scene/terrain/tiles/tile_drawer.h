@@ -6,6 +6,7 @@
 #include "tile_cache.h"
 #include "tile_ground.h"
 #include "trimtab/culling/cut_rule.h"
+#include "trimtab/culling/depth_pyramid.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/scene/planted_defects.h"
 
@@ -28,8 +29,9 @@ class TileDrawer final : public TerrainDrawer {
   // Runs the depth map's passes, if `prepare` set a depth view.
   void drawOccluders();
   void reduce(unsigned program) { gl_->occlusion.reduce(program); }
-  /// Tests the visible tiles against that map, waits for the result, and removes what it hides.
-  void removeHidden();
+  /// Tests the visible tiles against that map, waits for the result, and removes what it hides. Returns one
+  /// flag per cell of the objects, not 0 if the map hides it; or nothing. They are valid until the next call.
+  std::span<const std::uint8_t> removeHidden();
 
   const std::vector<TileDraw>& cut() const override { return cut_.tiles; }
   const VisibleSet& visible() const override { return visible_; }
@@ -66,7 +68,9 @@ class TileDrawer final : public TerrainDrawer {
   EyePose eye_;
   std::vector<std::uint32_t> testedSlots_;
   std::vector<TileDraw> occluders_;  ///< drawn into the GPU's depth map
-  std::vector<std::uint8_t> flags_;
+  std::vector<std::uint8_t> flags_, hiddenCells_;
+  std::vector<float> depths_;  ///< of the GPU's depth map, with which cells are tested
+  DepthPyramid map_;
   Defects defects_;
   bool mapDrawn_ = false;  ///< by the GPU, in the last frame
   double nearM_ = 1;       ///< of the last frame

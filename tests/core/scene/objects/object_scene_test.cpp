@@ -8,6 +8,7 @@
 
 #include "trimtab/culling/select_objects.h"
 #include "trimtab/scene/node_description.h"
+#include "trimtab/scene/planted_defects.h"
 
 namespace trimtab::test {
 namespace {
@@ -19,9 +20,9 @@ class ObjectScene : public SceneTest {
     const std::shared_ptr<const terrain::Database> ground = patchedMountains(true);
     use(std::make_shared<const ObjectsOn>(ground, scattered(*ground, count, 7, side, 6)));
   }
-  FrameRequest proposed(FrameRequest r) const {
+  FrameRequest proposed(FrameRequest r, OcclusionMethod method = OcclusionMethod::horizon) const {
     r.cullingCase = CullingCase::proposed;
-    r.occlusion = OcclusionMethod::horizon;
+    r.occlusion = method;
     r.levers.drawn.occlusion = OcclusionResolution{640, 480};
     return r;
   }
@@ -32,7 +33,7 @@ TEST_F(ObjectScene, cullingChangesNoPixelInAnyForm) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(0, 1);
   for (const TerrainForm form : {TerrainForm::patches, TerrainForm::tiles}) {
-    std::uint64_t occluded = 0, inView = 0;
+    std::uint64_t occluded = 0, behindMap = 0, inView = 0;
     std::size_t ofObjects = 0;
     const int views = 25 * soak();
     for (int i = 0; i < views; ++i) {
@@ -43,15 +44,18 @@ TEST_F(ObjectScene, cullingChangesNoPixelInAnyForm) {
       r.terrain.form = form;
       r.levers.drawn.errorPx = 1 + 3 * unit(random);
       r.cullingCase = CullingCase::none;
-      FrameResult whole, frustum, horizon;
+      FrameResult whole, frustum, horizon, map;
       const auto truth = picture(r, &whole);
       ASSERT_EQ(whole.objects.drawn, 40000u);
       r.cullingCase = CullingCase::view_frustum;
       ASSERT_EQ(differing(truth, picture(r, &frustum)), 0u) << "view " << i;
       ASSERT_EQ(differing(truth, picture(proposed(r), &horizon)), 0u) << "view " << i;
+      ASSERT_EQ(differing(truth, picture(proposed(r, OcclusionMethod::depth_map), &map)), 0u) << "view " << i;
+      EXPECT_EQ(map.objects.all(), 40000u);
       EXPECT_EQ(horizon.objects.all(), 40000u);
       EXPECT_LE(horizon.objects.drawn, frustum.objects.drawn);
       occluded += frustum.objects.drawn - horizon.objects.drawn;
+      behindMap += frustum.objects.drawn - map.objects.drawn;
       inView += frustum.objects.drawn;
       if (i < 5) {
         const auto objects = std::exchange(database, patchedMountains(true));
@@ -60,12 +64,57 @@ TEST_F(ObjectScene, cullingChangesNoPixelInAnyForm) {
         use(objects);
       }
     }
-    std::printf("%s: %llu of %llu instances in view were hidden, %zu pixels were of objects\n",
-                form == TerrainForm::patches ? "patches" : "tiles", static_cast<unsigned long long>(occluded),
-                static_cast<unsigned long long>(inView), ofObjects);
+    std::printf(
+        "%s: of %llu instances in view the horizon hid %llu and the depth map %llu, %zu pixels were "
+        "of objects\n",
+        form == TerrainForm::patches ? "patches" : "tiles", static_cast<unsigned long long>(inView),
+        static_cast<unsigned long long>(occluded), static_cast<unsigned long long>(behindMap), ofObjects);
     EXPECT_GT(ofObjects, 1000u) << "the test would see nothing";
     EXPECT_GT(occluded * 4, inView);
+    EXPECT_GT(behindMap * 8, inView);
   }
+}
+
+TEST_F(ObjectScene, aDepthMapThatIsReadBesideItsPlaceLosesObjects) {
+  plant(40000);
+  std::size_t right = 0, lost = 0;
+  for (int i = 0; i < 12; ++i) {
+    const double east = 0.2 + 0.1 * (i % 6), north = 0.25 + 0.3 * (i / 6);
+    FrameRequest r = proposed(request(over(east, north, 60), {Degrees{-2}, Degrees{0}, Degrees{100.0 * i}}),
+                              OcclusionMethod::depth_map);
+    r.terrain.form = TerrainForm::tiles;
+    const auto objectsOf = [&](int shiftTexels) {
+      scene::plant(renderer, {.depthMapShiftTexels = shiftTexels});
+      FrameResult result;
+      picture(r, &result);
+      return renderer.readObjects();
+    };
+    const auto truth = objectsOf(0), shifted = objectsOf(i % 2 == 0 ? 100 : -100);
+    scene::plant(renderer, {});
+    for (std::size_t pixel = 0; pixel < truth.size(); ++pixel) {
+      // Tiles that are lost as well show more objects, never fewer.
+      if (truth[pixel] == scene::Renderer::kNoNode) continue;
+      ++right;
+      lost += shifted[pixel] == scene::Renderer::kNoNode;
+    }
+  }
+  EXPECT_GT(right, 1000u);
+  EXPECT_GT(lost, 10u);
+}
+
+TEST_F(ObjectScene, aRestingEyeSelectsAgainOnlyIfTheFlagsOfTheCellsChange) {
+  plant(40000);
+  FrameRequest r = proposed(request(over(0.45, 0.4, 60), {Degrees{-2}, Degrees{0}, Degrees{30}}));
+  r.terrain.form = TerrainForm::tiles;
+  const auto drawnBy = [&](OcclusionMethod method) {
+    FrameResult result;
+    picture(proposed(r, method), &result);
+    return result.objects.drawn;
+  };
+  const auto horizon = drawnBy(OcclusionMethod::horizon), map = drawnBy(OcclusionMethod::depth_map);
+  ASSERT_NE(horizon, map) << "the test would see nothing";
+  EXPECT_EQ(drawnBy(OcclusionMethod::depth_map), map);
+  EXPECT_EQ(drawnBy(OcclusionMethod::horizon), horizon);
 }
 
 TEST_F(ObjectScene, eachPixelOfAnObjectIsWithinItsSphereAndTheOthersShowNone) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trimtab/culling/cut_rule.h"
+#include "trimtab/culling/depth_pyramid.h"
 #include "trimtab/culling/relief.h"
 #include "trimtab/frame/eye_pose.h"
 #include "trimtab/frame/object_index.h"
@@ -70,6 +71,11 @@ Vec3 placeOfObject(const ObjectIndex& index, std::uint32_t instance);
 /// from its model's origin, metres.
 std::uint32_t levelOfObject(const ObjectIndex& index, const ObjectInstance& instance, double distanceM,
                             const CutRule& rule);
+
+/// Sets a flag per cell, in the order of the index: 1 if its box is in the view and the map proves it hidden,
+/// or if a cell that holds it is; else 0. The map must be of this eye and view.
+void findHiddenCells(const ObjectIndex& index, const DepthPyramid& map, const EyePose& eye,
+                     const ViewShape& view, std::vector<std::uint8_t>& hidden);
 
 /// Returns the cells as a horizon tests them, one for each: they hide nothing, and their boxes may be hidden.
 std::vector<Relief> reliefsOfCells(const ObjectIndex& index);
