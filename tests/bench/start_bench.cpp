@@ -89,7 +89,9 @@ int measure(Report& report) {
 
   // What a newcomer waits for: the sample is made, then baked, and trimtab-ig opens the database.
   const Child sample = run({cli, "terrain", "sample", "-o", tif}, dir.path());
-  const Child bake = run({cli, "terrain", "bake", tif, "-o", database}, dir.path());
+  const Child bake =
+      run({cli, "terrain", "bake", tif, "--objects", (dir / "sample-objects.csv").string(), "-o", database},
+          dir.path());
   const Child first = firstFrame(database);
   const double freshSeconds = (sample.ended - sample.started) + (bake.ended - bake.started) + timeOf(first);
 
@@ -107,6 +109,9 @@ int measure(Report& report) {
       10, {"start.baked",
            "seconds from the start of trimtab-ig to its first finished image, 100 km of terrain baked",
            baked.seconds, "s", peer, limit.seconds, "run"}));
+  report.add(valueAtMost(
+      1, {"start.baked_seconds", "the same by itself, with what stands on the sample in the database",
+          baked.seconds, "s"}));
   report.add(ratioAtMost(3, {"start.baked_memory", "peak memory of that run", baked.peakMiB, "MiB", peer,
                              limit.peakMiB, "run"}));
   report.add(valueAtMost(

@@ -152,8 +152,10 @@ ObjectPeer::Frame ObjectPeer::draw(const EyePose& eye, const ViewShape& view) {
   camera->setViewMatrix(viewOf(eye));
   camera->setProjectionMatrix(projectionOf(shape, kFarM));
   start = monotonicSeconds();
+  const double before = processorMs();
   impl_->viewer->frame();
   glFinish();
+  frame.frameProcessorMs = processorMs() - before;
   frame.frameMs = 1e3 * (monotonicSeconds() - start);
   return frame;
 }

@@ -21,6 +21,7 @@ class ObjectPeer {
 
   struct Frame {
     double cullMs = 0, frameMs = 0;  ///< the frame with its cull traversal, until GL has drawn it
+    double frameProcessorMs = 0;     ///< of all threads, in the same
     std::size_t drawables = 0;
   };
   Frame draw(const EyePose& eye, const ViewShape& view);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "trimtab/terrain/format/patch_terrain.h"
+#include "trimtab/terrain/format/static_lod_terrain.h"
 #include "trimtab/terrain/objects/build_objects.h"
 
 namespace trimtab::bench {
@@ -69,37 +70,105 @@ std::vector<std::optional<terrain::BuiltModel>> models() {
   return all;
 }
 
+ListedPlacement placedAt(GeodeticPosition place, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  ListedPlacement p;
+  p.latitude = place.latitude;
+  p.longitude = place.longitude;
+  p.heading = Degrees{180 * unit(random)};
+  p.scale = 1 + 0.3 * unit(random);
+  return p;
+}
+
+std::shared_ptr<const terrain::ObjectTerrain> built(const PlacementList& list,
+                                                    const terrain::Database& ground) {
+  auto objects =
+      terrain::buildObjects(models(), list, ground, ground.patches()->index().frame, "scattered objects");
+  if (!objects) {
+    std::cerr << toString(objects.findings());
+    return nullptr;
+  }
+  return std::make_shared<const terrain::ObjectTerrain>(std::move(objects).value());
+}
+
+/// A list without placements of the twelve models.
+PlacementList emptyList() {
+  PlacementList list;
+  for (int i = 0; i < 12; ++i) list.models.push_back(std::to_string(i));
+  return list;
+}
+
+GeodeticPosition middleOf(const terrain::TerrainInfo& info) {
+  return {Degrees{0.5 * (info.southWest.latitude.value() + info.northEast.latitude.value())},
+          Degrees{0.5 * (info.southWest.longitude.value() + info.northEast.longitude.value())}, Metres{0}};
+}
+
 }  // namespace
+
+std::shared_ptr<const terrain::ObjectTerrain> treesOnForest(const terrain::Database& ground, int count,
+                                                            double radiusKm) {
+  const auto scenery = ground.staticLod();
+  if (!scenery) return nullptr;
+  const StaticLodIndex& index = scenery->index;
+  const Vec3 middle = index.frame.fromGeodetic(middleOf(ground.info()));
+  struct Triangle {
+    std::array<Vec3, 3> corners;
+  };
+  std::vector<Triangle> forest;
+  std::vector<double> areas;
+  for (std::size_t node = 0; node < index.size(); ++node) {
+    if (index.nodes[node].children[0] != StaticLodIndex::kNone) continue;
+    const terrain::StaticLodTile& tile = scenery->tiles[index.nodes[node].tile];
+    const terrain::StaticLodRange range = scenery->ranges[node];
+    for (std::uint32_t t = range.firstTriangle; t < range.firstTriangle + range.triangles; ++t) {
+      if (scenery->materials[tile.material[t]].find("Forest") == std::string::npos) continue;
+      Triangle triangle;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const terrain::StaticLodVertex& v = tile.vertices[tile.indices[3 * t + i]];
+        triangle.corners[i] =
+            Vec3{16.0 * tile.origin[0] + v.x, 16.0 * tile.origin[1] + v.y, 16.0 * tile.origin[2] + v.z};
+      }
+      const auto& [a, b, c] = triangle.corners;
+      if (std::hypot(a.x - middle.x, a.y - middle.y) > 1000 * radiusKm) continue;
+      areas.push_back(length(cross(b - a, c - a)));
+      forest.push_back(triangle);
+    }
+  }
+  if (forest.empty()) return nullptr;
+  std::mt19937 random(19);
+  std::discrete_distribution<std::size_t> chosen(areas.begin(), areas.end());
+  std::uniform_real_distribution<double> unit(0, 1);
+  PlacementList list = emptyList();
+  while (list.placements.size() < static_cast<std::size_t>(count)) {
+    const auto& [a, b, c] = forest[chosen(random)].corners;
+    double u = unit(random), v = unit(random);
+    if (u + v > 1) u = 1 - u, v = 1 - v;
+    ListedPlacement p = placedAt(index.frame.toGeodetic(a + u * (b - a) + v * (c - a)), random);
+    p.model = static_cast<std::uint32_t>(random() % 8);
+    if (ground.heightAt(p.latitude, p.longitude)) list.placements.push_back(p);
+  }
+  return built(list, ground);
+}
 
 std::shared_ptr<const terrain::ObjectTerrain> scatteredOver(const terrain::Database& ground, int count,
                                                             double radiusKm) {
-  const terrain::TerrainInfo& info = ground.info();
-  const double latitude = 0.5 * (info.southWest.latitude.value() + info.northEast.latitude.value()),
-               longitude = 0.5 * (info.southWest.longitude.value() + info.northEast.longitude.value());
+  const GeodeticPosition middle = middleOf(ground.info());
+  const double kmOfDegree = 111 * std::cos(middle.latitude.value() * std::numbers::pi / 180);
   std::mt19937 random(19);
   std::uniform_real_distribution<double> unit(-1, 1);
-  PlacementList list;
-  for (int i = 0; i < 12; ++i) list.models.push_back(std::to_string(i));
+  PlacementList list = emptyList();
   while (list.placements.size() < static_cast<std::size_t>(count)) {
     const double north = unit(random), east = unit(random);
-    ListedPlacement p;
-    p.latitude = Degrees{latitude + north * radiusKm / 111};
-    p.longitude = Degrees{longitude + east * radiusKm / (111 * std::cos(latitude * std::numbers::pi / 180))};
-    p.heading = Degrees{180 * unit(random)};
-    p.scale = 1 + 0.3 * unit(random);
+    ListedPlacement p = placedAt({middle.latitude + Degrees{north * radiusKm / 111},
+                                  middle.longitude + Degrees{east * radiusKm / kmOfDegree}, Metres{0}},
+                                 random);
     p.model = static_cast<std::uint32_t>(random() % 40);
     // Most are trees; one in forty is a mast.
     p.model = p.model < 36 ? p.model % 8 : p.model - 28;
     const auto height = ground.heightAt(p.latitude, p.longitude);
     if (height && height->value() > 1) list.placements.push_back(p);
   }
-  auto built =
-      terrain::buildObjects(models(), list, ground, ground.patches()->index().frame, "scattered objects");
-  if (!built) {
-    std::cerr << toString(built.findings());
-    return nullptr;
-  }
-  return std::make_shared<const terrain::ObjectTerrain>(std::move(built).value());
+  return built(list, ground);
 }
 
 }  // namespace trimtab::bench

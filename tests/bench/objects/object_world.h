@@ -12,4 +12,9 @@ namespace trimtab::bench {
 std::shared_ptr<const terrain::ObjectTerrain> scatteredOver(const terrain::Database& ground, int count,
                                                             double radiusKm);
 
+/// Returns the trees of these at random places on the forest of a scenery's static LOD trees, as even in area
+/// as its triangles allow, within `radiusKm` of the middle; null if they cannot be made.
+std::shared_ptr<const terrain::ObjectTerrain> treesOnForest(const terrain::Database& ground, int count,
+                                                            double radiusKm);
+
 }  // namespace trimtab::bench

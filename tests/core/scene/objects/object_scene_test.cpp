@@ -40,7 +40,7 @@ TEST_F(ObjectScene, cullingChangesNoPixelInAnyForm) {
       const double aboveM = 30 * std::pow(60, std::pow(unit(random), 2.0));
       FrameRequest r = request(
           over(0.15 + 0.7 * unit(random), 0.15 + 0.7 * unit(random), aboveM),
-          {Degrees{-15 + 20 * unit(random)}, Degrees{60 * unit(random) - 30}, Degrees{360 * unit(random)}});
+          {Degrees{360 * unit(random)}, Degrees{-15 + 20 * unit(random)}, Degrees{60 * unit(random) - 30}});
       r.terrain.form = form;
       r.levers.drawn.errorPx = 1 + 3 * unit(random);
       r.cullingCase = CullingCase::none;
@@ -79,6 +79,7 @@ TEST_F(ObjectScene, aDepthMapThatIsReadBesideItsPlaceLosesObjects) {
   plant(40000);
   std::size_t right = 0, lost = 0;
   for (int i = 0; i < 12; ++i) {
+    // Rolled, so that a shift to the side is one over a ridge.
     const double east = 0.2 + 0.1 * (i % 6), north = 0.25 + 0.3 * (i / 6);
     FrameRequest r = proposed(request(over(east, north, 60), {Degrees{-2}, Degrees{0}, Degrees{100.0 * i}}),
                               OcclusionMethod::depth_map);
@@ -104,7 +105,7 @@ TEST_F(ObjectScene, aDepthMapThatIsReadBesideItsPlaceLosesObjects) {
 
 TEST_F(ObjectScene, aRestingEyeSelectsAgainOnlyIfTheFlagsOfTheCellsChange) {
   plant(40000);
-  FrameRequest r = proposed(request(over(0.45, 0.4, 60), {Degrees{-2}, Degrees{0}, Degrees{30}}));
+  FrameRequest r = proposed(request(over(0.45, 0.4, 60), {Degrees{30}, Degrees{-2}, Degrees{0}}));
   r.terrain.form = TerrainForm::tiles;
   const auto drawnBy = [&](OcclusionMethod method) {
     FrameResult result;
