@@ -110,9 +110,9 @@ void addTerrain(CLI::App& app, int& exitCode) {
 
   struct BakeArguments {
     std::vector<std::string> sources;
-    std::string output, imagery, objects;
+    std::string output, imagery, objects, sceneryModels;
     std::uint32_t leafTriangles = terrain::BakeOptions{}.trianglesPerNode;
-    bool keepLines = false, keepTexture = false;
+    bool keepLines = false, keepTexture = false, noObjects = false;
     double postM = 0, memoryMb = terrain::BakeOptions{}.memory.value();
     std::optional<double> maxErrorM;
     std::string part, heightUnit;
@@ -145,6 +145,12 @@ void addTerrain(CLI::App& app, int& exitCode) {
                        "files beside it: " +
                            models::modelFormats() +
                            ", in metres, z up (.ac, as FlightGear writes it, and .obj: y up)");
+  makeBake->add_option("--scenery-models", bake->sceneryModels,
+                       "FlightGear's base package, whose Models scenery shares; without it FG_ROOT and "
+                       "/usr/share/games/flightgear are searched");
+  makeBake->add_flag(
+      "--no-objects", bake->noObjects,
+      "Leave out what sources bring to stand on the ground: features of a CDB, objects of scenery");
   makeBake
       ->add_option("--leaf-triangles", bake->leafTriangles,
                    "Most triangles a leaf of the static levels of detail holds (scenery)")
@@ -182,6 +188,8 @@ void addTerrain(CLI::App& app, int& exitCode) {
     options.output = bake->output;
     if (!bake->imagery.empty()) options.imagery = bake->imagery;
     if (!bake->objects.empty()) options.objects = bake->objects;
+    options.ownObjects = !bake->noObjects;
+    if (!bake->sceneryModels.empty()) options.sceneryModels = bake->sceneryModels;
     options.readModel = models::readModel;
     if (!bake->heightUnit.empty()) options.reading.heightUnit = terrain::metresPerUnit(bake->heightUnit);
     options.reading.ignoreChecksums = bake->ignoreChecksums;
@@ -192,7 +200,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
     if (bake->maxErrorM) options.maxError = Metres{*bake->maxErrorM};
     options.memory = Megabytes{bake->memoryMb};
     options.progress = progressLines();
-    report(terrain::aboutSources(options.sources));
+    report(terrain::aboutSources(options.sources, options.sceneryModels));
     if (!bake->part.empty()) {
       unsigned number = 0, parts = 0;
       int read = 0;

@@ -67,8 +67,9 @@ Result<terrain::SourceModel> readModel(const std::filesystem::path& file) {
     if (const auto data = checkIsData(file); !data) return data.findings();
   }
   if (!isModelName(file.string())) return unusable(file, "a model (" + modelFormats() + ")", "another file");
-  if (osgDB::Registry::instance()->getReaderWriterForExtension(
-          osgDB::getLowerCaseFileExtension(file.string())) == nullptr)
+  const bool listed = osgDB::getLowerCaseFileExtension(file.string()) == "xml";
+  if (!listed && osgDB::Registry::instance()->getReaderWriterForExtension(
+                     osgDB::getLowerCaseFileExtension(file.string())) == nullptr)
     return unusable(file, "OpenSceneGraph's plugin for such files", "none installed");
   WatchedReads watch(file);
   osg::ref_ptr<osg::Node> node;

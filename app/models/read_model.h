@@ -11,7 +11,8 @@ namespace trimtab::models {
 /// Returns the endings of the files that readModel() reads, for help and messages.
 std::string modelFormats();
 
-/// Reads a model: .flt, .ive, .osgb, .osgt, .osg, .3ds, .obj, .ac, .dae, .ply or .stl. Axes are those of
+/// Reads a model: .flt, .ive, .osgb, .osgt, .osg, .3ds, .obj, .ac, .dae, .ply, .stl, or a
+/// FlightGear model list in .xml (property_model.h). Axes are those of
 /// SourceModel, so z is up: in .ac, as FlightGear writes it, and in .obj y is up, and is turned; .dae says
 /// which is. The same files give the same bytes. Units are metres: what a file says of others is not read.
 /// Not for use by several threads at once. A name "/vsizip/ARCHIVE/NAME" is a file in a zip archive.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/models/open_flight.h"
+#include "app/models/property_model.h"
 #include "app/models/read_model.h"
 #include "trimtab/terrain/cdb/models.h"
 
@@ -17,8 +18,8 @@ namespace trimtab::models {
 
 namespace {
 
-constexpr std::array<const char*, 11> kFormats{"flt", "ive", "osgb", "osgt", "osg", "3ds",
-                                               "obj", "ac",  "dae",  "ply",  "stl"};
+constexpr std::array<const char*, 12> kFormats{"flt", "ive", "osgb", "osgt", "osg", "3ds",
+                                               "obj", "ac",  "dae",  "ply",  "stl", "xml"};
 constexpr std::size_t kMostDeep = 16, kMostFiles = 1000;
 
 using ReadResult = osgDB::ReaderWriter::ReadResult;
@@ -115,9 +116,7 @@ class WatchedReads::Files final : public osgDB::ReadFileCallback {
       return osgDB::ReaderWriter::ReadResult::ERROR_IN_READING_FILE;
     }
     open_.push_back(name);
-    auto result = isInArchive(file) || osgDB::getLowerCaseFileExtension(file) == "flt"
-                      ? readBytes(file, options)
-                      : osgDB::ReadFileCallback::readNode(file, options);
+    auto result = readOne(file, options);
     open_.pop_back();
     if (isReference && !result.validNode())
       watch_.add(Severity::warning, file, "a model that can be read, referred to", "none");
@@ -138,6 +137,16 @@ class WatchedReads::Files final : public osgDB::ReadFileCallback {
   }
 
  private:
+  osgDB::ReaderWriter::ReadResult readOne(const std::string& file, const osgDB::Options* options) {
+    const std::string ending = osgDB::getLowerCaseFileExtension(file);
+    if (ending == "xml") {
+      const auto node = readPropertyModel(file, options, [this](auto&&... said) { watch_.add(said...); });
+      return node ? ReadResult(node.get()) : ReadResult(ReadResult::ERROR_IN_READING_FILE);
+    }
+    if (isInArchive(file) || ending == "flt") return readBytes(file, options);
+    return osgDB::ReadFileCallback::readNode(file, options);
+  }
+
   WatchedReads& watch_;
   std::vector<std::string> open_;
   std::size_t count_ = 0;

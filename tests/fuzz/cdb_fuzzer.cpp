@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!(p.scale >= PlacementLimits::kLeastScale && p.scale <= PlacementLimits::kMostScale)) std::abort();
     if (!(std::abs(p.aboveGround.value()) <= PlacementLimits::kHeightM)) std::abort();
   }
-  for (const terrain::CdbModel& model : features.models)
+  for (const ModelFile& model : features.models)
     if (!terrain::bytesOfCdbFile(model.file, 1 << 20) && first != 'P') std::abort();
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "cdb.h"
+#include "objects.h"
 #include "source.h"
 #include "trimtab/host/placement_list.h"
 #include "trimtab/preset/file_io.h"
@@ -21,15 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns the checksum of a list of objects, and the stamps of the files in the folders of its models, which
-/// hold their textures too.
-Result<std::string> keyOf(const fs::path& list) {
-  const auto text = readWhole(list, kLargestRecording);
-  if (!text) return text.findings();
-  const auto read = readPlacementList(*text, list.string());
-  if (!read) return read.findings();
-  std::set<fs::path> folders;
-  for (const std::string& model : read->models) folders.insert((list.parent_path() / model).parent_path());
+/// Returns the stamps of all files in some folders but `list`, a line each.
+std::string stampsIn(const std::set<fs::path>& folders, const fs::path& list) {
   std::set<std::string> stamps;
   std::error_code error;
   for (const fs::path& folder : folders)
@@ -40,9 +34,30 @@ Result<std::string> keyOf(const fs::path& list) {
       stamps.insert(file->path().string() + ' ' + std::to_string(file->file_size(unknown)) + ' ' +
                     std::to_string(time));
     }
-  std::string key = "\nobjects " + hexadecimal(checksum(*text));
+  std::string key;
   for (const std::string& stamp : stamps) key += '\n' + stamp;
   return key;
+}
+
+/// Returns the checksum of a list of objects, and the stamps of the files in the folders of its models, which
+/// hold their textures too.
+Result<std::string> keyOf(const fs::path& list) {
+  const auto text = readWhole(list, kLargestRecording);
+  if (!text) return text.findings();
+  const auto read = readPlacementList(*text, list.string());
+  if (!read) return read.findings();
+  std::set<fs::path> folders;
+  for (const std::string& model : read->models) folders.insert((list.parent_path() / model).parent_path());
+  return "\nobjects " + hexadecimal(checksum(*text)) + stampsIn(folders, list);
+}
+
+/// Returns the stamps of the folders that hold what scenery's lists place.
+std::string keyOfPlaced(const fs::path& scenery) {
+  Findings ignored;  // the bake reports them
+  std::set<fs::path> folders;
+  for (const ModelFile& model : placedOn(scenery, {}, ignored).models)
+    folders.insert(fs::path(model.file).parent_path());
+  return stampsIn(folders, {});
 }
 
 }  // namespace
@@ -60,6 +75,7 @@ Result<std::shared_ptr<const Database>> openOrBake(const fs::path& source, const
   for (const std::string& stamp : stampsOf(*files)) key += '\n' + stamp;
   if (isCdb(source))
     for (const std::string& stamp : cdbStamps(source)) key += '\n' + stamp;
+  if (scenery && objects) key += keyOfPlaced(source);
   if (objects && !objects->list.empty()) {
     const auto more = keyOf(objects->list);
     if (!more) return more.findings();

@@ -6,6 +6,8 @@
 #include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/cdb/features.h"
 #include "trimtab/terrain/ground/imagery.h"
+#include "trimtab/terrain/scenery/objects.h"
+#include "trimtab/terrain/scenery/scenery.h"
 
 namespace trimtab::terrain {
 
@@ -72,12 +74,17 @@ std::vector<std::string> cdbStamps(const fs::path& folder) {
   return stamps;
 }
 
-Findings aboutSources(const std::vector<fs::path>& sources) {
+Findings aboutSources(const std::vector<fs::path>& sources, const std::optional<fs::path>& sceneryModels) {
   Findings notes;
-  for (const fs::path& folder : cdbsAmong(sources)) {
+  for (const fs::path& folder : sources) {
+    Findings warnings;  // the bake reports them
+    if (isScenery(folder)) {
+      const auto objects = readSceneryObjects(folder, baseFolders(sceneryModels), warnings);
+      for (Finding& note : aboutSceneryObjects(folder, objects)) notes.push_back(std::move(note));
+    }
+    if (!isCdb(folder)) continue;
     const auto cdb = openCdb(folder);
     if (!cdb) continue;
-    Findings warnings;  // the bake reports them
     const CdbFeatures features = readCdbFeatures(*cdb, warnings);
     for (Finding& note : aboutCdb(*cdb, features)) notes.push_back(std::move(note));
   }

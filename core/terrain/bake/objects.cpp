@@ -1,6 +1,7 @@
 #include "objects.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "cdb.h"
 #include "drawn_ground.h"
@@ -13,6 +14,9 @@
 #include "trimtab/terrain/grid/parallel.h"
 #include "trimtab/terrain/objects/build_model.h"
 #include "trimtab/terrain/objects/build_objects.h"
+#include "trimtab/terrain/scenery/objects.h"
+#include "trimtab/terrain/scenery/scenery.h"
+#include "trimtab/units/linear.h"
 #include "trimtab/units/number.h"
 
 namespace trimtab::terrain {
@@ -56,7 +60,7 @@ void addAsWarnings(const Findings& some, Findings& all) {
 
 /// Reads the list of placements that a person named.
 Result<Done> addList(const std::filesystem::path& file, ObjectSources& sources,
-                     std::vector<CdbModel>& files) {
+                     std::vector<ModelFile>& files) {
   const auto text = readWhole(file, kLargestRecording);
   if (!text) return text.findings();
   auto list = readPlacementList(*text, file.string());
@@ -71,21 +75,18 @@ Result<Done> addList(const std::filesystem::path& file, ObjectSources& sources,
   return Result<Done>(Done{}, std::move(findings));
 }
 
-/// Appends the features of a CDB.
-void addFeatures(const std::filesystem::path& folder, ObjectSources& sources, std::vector<CdbModel>& files,
-                 Findings& findings) {
-  const auto cdb = openCdb(folder);
-  if (!cdb) return;  // elevation reports it
-  CdbFeatures features = readCdbFeatures(*cdb, findings);
-  if (features.list.placements.empty()) return;
-  if (sources.file.empty()) sources.file = folder;
+/// Appends what a source brings itself.
+void addPlaced(const std::filesystem::path& source, PlacedModels placed, ObjectSources& sources,
+               std::vector<ModelFile>& files) {
+  if (placed.list.placements.empty()) return;
+  if (sources.file.empty()) sources.file = source;
   PlacementList& all = sources.list;
   const auto firstModel = static_cast<std::uint32_t>(all.models.size());
-  for (PlacementTable& table : features.list.tables)
+  for (PlacementTable& table : placed.list.tables)
     all.tables.push_back({std::move(table.where), table.first + all.placements.size()});
   std::string bytes = std::to_string(sources.sum);
-  for (ListedPlacement p : features.list.placements) {
-    bytes += '\n' + features.list.models[p.model];
+  for (ListedPlacement p : placed.list.placements) {
+    bytes += '\n' + placed.list.models[p.model];
     for (const double value : {p.latitude.value(), p.longitude.value(), p.height.value_or(Metres{}).value(),
                                p.aboveGround.value(), p.heading.value(), p.scale, p.height ? 1.0 : 0.0})
       bytes += ' ' + numberText(value);
@@ -93,35 +94,61 @@ void addFeatures(const std::filesystem::path& folder, ObjectSources& sources, st
     all.placements.push_back(p);
   }
   sources.sum = checksum(bytes);
-  all.models.insert(all.models.end(), features.list.models.begin(), features.list.models.end());
-  files.insert(files.end(), features.models.begin(), features.models.end());
+  all.models.insert(all.models.end(), placed.list.models.begin(), placed.list.models.end());
+  files.insert(files.end(), placed.models.begin(), placed.models.end());
 }
 
-/// Makes a model wider, longer and higher; normals stay upright to its surfaces.
-void stretch(SourceModel& model, const std::array<double, 3>& by) {
+/// Makes a model wider, longer and higher, then turns it; normals stay upright to its surfaces.
+void change(SourceModel& model, const ModelFile& how) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  const double cx = std::cos(how.roll.value() * kRadians), sx = std::sin(how.roll.value() * kRadians),
+               cy = std::cos(how.pitch.value() * kRadians), sy = std::sin(how.pitch.value() * kRadians);
+  const Mat3 turn = Mat3{{Vec3{cy, 0, sy}, Vec3{0, 1, 0}, Vec3{-sy, 0, cy}}} *
+                    Mat3{{Vec3{1, 0, 0}, Vec3{0, cx, -sx}, Vec3{0, sx, cx}}};
+  const bool turned = how.roll.value() != 0 || how.pitch.value() != 0;
+  const auto inTurn = [&](std::array<float, 3>& v) {
+    if (!turned) return;
+    const Vec3 to = turn * Vec3{double{v[0]}, double{v[1]}, double{v[2]}};
+    v = {static_cast<float>(to.x), static_cast<float>(to.y), static_cast<float>(to.z)};
+  };
   for (SourceMesh& mesh : model.levels)
-    for (SourceVertex& v : mesh.vertices)
+    for (SourceVertex& v : mesh.vertices) {
       for (std::size_t k = 0; k < 3; ++k) {
-        v.position[k] *= static_cast<float>(by[k]);
-        v.normal[k] /= static_cast<float>(by[k]);
+        v.position[k] *= static_cast<float>(how.stretch[k]);
+        v.normal[k] /= static_cast<float>(how.stretch[k]);
       }
-  for (SourceLight& light : model.lights)
-    for (std::size_t k = 0; k < 3; ++k) light.position[k] *= static_cast<float>(by[k]);
+      inTurn(v.position);
+      inTurn(v.normal);
+    }
+  for (SourceLight& light : model.lights) {
+    for (std::size_t k = 0; k < 3; ++k) light.position[k] *= static_cast<float>(how.stretch[k]);
+    inTurn(light.position);
+  }
 }
 
 }  // namespace
 
+PlacedModels placedOn(const std::filesystem::path& source,
+                      const std::optional<std::filesystem::path>& sceneryModels, Findings& findings) {
+  if (isScenery(source)) return readSceneryObjects(source, baseFolders(sceneryModels), findings);
+  if (!isCdb(source)) return {};
+  const auto cdb = openCdb(source);
+  if (!cdb) return {};  // elevation reports it
+  return readCdbFeatures(*cdb, findings);
+}
+
 Result<std::optional<ObjectSources>> readObjectSources(const BakeOptions& options, std::size_t memory) {
   ObjectSources sources;
-  std::vector<CdbModel> files;
+  std::vector<ModelFile> files;
   Findings findings;
   if (options.objects) {
     auto read = addList(*options.objects, sources, files);
     findings = read.findings();
     if (!read) return findings;
   }
-  for (const std::filesystem::path& cdb : cdbsAmong(options.sources))
-    addFeatures(cdb, sources, files, findings);
+  for (const std::filesystem::path& source : options.sources)
+    if (options.ownObjects)
+      addPlaced(source, placedOn(source, options.sceneryModels, findings), sources, files);
   if (sources.list.placements.empty())
     return Result<std::optional<ObjectSources>>(std::nullopt, std::move(findings));
   const std::string where = sources.file.string();
@@ -141,7 +168,7 @@ Result<std::optional<ObjectSources>> readObjectSources(const BakeOptions& option
     auto model = options.readModel(files[i].file);
     addAsWarnings(model.findings(), findings);
     sources.models.emplace_back();
-    if (model) stretch(*model, files[i].stretch);
+    if (model) change(*model, files[i]);
     sources.modelSums.push_back(model ? checksumOf(*model) : 0);
     if (model) {
       bytes += bytesOf(*model) * kFormsOfModel;

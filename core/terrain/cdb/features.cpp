@@ -1,6 +1,7 @@
 #include "trimtab/terrain/cdb/features.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <unordered_map>
@@ -216,7 +217,7 @@ class FeaturePlacer {
   }
 
   /// Returns the model's number; none if it would be one stretched model too many.
-  std::optional<std::uint32_t> numberOf(CdbModel model) {
+  std::optional<std::uint32_t> numberOf(ModelFile model) {
     std::string name = model.file;
     const auto& [x, y, z] = model.stretch;
     const bool stretched = x != 1 || y != 1 || z != 1;

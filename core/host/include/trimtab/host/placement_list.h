@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -36,6 +37,19 @@ struct PlacementList {
 
   /// Names a placement for findings, "TABLE:LINE"; `otherwise` is the table if the list names none.
   std::string placeOf(std::size_t placement, const std::string& otherwise) const;
+};
+
+/// What a name of a list stands for: the file of a model, and how it is changed before it is placed.
+struct ModelFile {
+  std::string file;                        ///< on disk, or "/vsizip/ARCHIVE/NAME"
+  std::array<double, 3> stretch{1, 1, 1};  ///< along x, y and z, before the placement's own scale
+  Degrees roll{}, pitch{};  ///< it is turned about x, then about y, anticlockwise seen against the axis
+};
+
+/// What a source of terrain brings to stand on it.
+struct PlacedModels {
+  PlacementList list;             ///< `models` has names that differ; each row names its table
+  std::vector<ModelFile> models;  ///< one per name of the list
 };
 
 /// Limits of a row; the latitude and longitude are those of every place.

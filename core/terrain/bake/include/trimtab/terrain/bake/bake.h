@@ -23,8 +23,11 @@ struct BakeOptions {
   /// A list of where objects stand (trimtab/host/placement_list.h), which names the files of their models
   /// relative to its own folder. Rows and models that cannot be used are left out, with warnings.
   std::optional<std::filesystem::path> objects;
-  /// Reads the file of a model; `objects` needs it, and so do features of a CDB. app/models has one.
+  /// Reads the file of a model; `objects` needs it, and so does what sources bring. app/models has one.
   std::function<Result<SourceModel>(const std::filesystem::path&)> readModel;
+  bool ownObjects = true;  ///< what sources bring stands on the ground: features of a CDB, objects of scenery
+  /// FlightGear's base package, whose models scenery shares (trimtab/terrain/scenery/objects.h).
+  std::optional<std::filesystem::path> sceneryModels;
   Reading reading;                        ///< how elevation files are read
   std::uint32_t trianglesPerNode = 2000;  ///< of the static LOD, if a source is scenery
   bool keepLines = false;    ///< the static LOD keeps roads, streams and shorelines while they cover a pixel
@@ -40,8 +43,10 @@ struct BakeOptions {
   std::filesystem::path output;
   Progress progress;
 };
-/// Returns notes of what each CDB among the sources holds, and of what is not drawn of it. Reads its tables.
-Findings aboutSources(const std::vector<std::filesystem::path>& sources);
+/// Returns notes of what each CDB and each scenery among the sources holds to stand on the ground, and of what
+/// is not drawn of it. Reads tables and lists.
+Findings aboutSources(const std::vector<std::filesystem::path>& sources,
+                      const std::optional<std::filesystem::path>& sceneryModels = {});
 
 /// Bakes the sources and opens the database. The bake works in a folder beside `output` (".NAME.work") and
 /// renames its result to `output` when it is complete. If a bake is interrupted, the folder stays: the same

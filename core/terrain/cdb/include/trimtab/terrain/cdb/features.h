@@ -1,30 +1,20 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "trimtab/host/placement_list.h"
 #include "trimtab/terrain/cdb/catalogue.h"
 
 namespace trimtab::terrain {
 
-/// A model of features.
-struct CdbModel {
-  std::string file;                        ///< on disk, or "/vsizip/ARCHIVE/NAME"
-  std::array<double, 3> stretch{1, 1, 1};  ///< along x, y and z, before the placement's own scale
-};
-
 /// Where point features stand, and what they are drawn by.
-struct CdbFeatures {
-  PlacementList list;            ///< `models` has names that differ; each row names its table
-  std::vector<CdbModel> models;  ///< one per name of the list
-  std::size_t specific = 0;      ///< features of one place (100) that are placed
-  std::size_t typical = 0;       ///< features of many places (101) that are placed
-  std::size_t replaced = 0;      ///< rows of coarser tables whose place has a finer one
-  std::size_t lights = 0;        ///< airport and other lights, which are not drawn
+struct CdbFeatures : PlacedModels {
+  std::size_t specific = 0;  ///< features of one place (100) that are placed
+  std::size_t typical = 0;   ///< features of many places (101) that are placed
+  std::size_t replaced = 0;  ///< rows of coarser tables whose place has a finer one
+  std::size_t lights = 0;    ///< airport and other lights, which are not drawn
   std::map<std::string, std::size_t> withoutModel;  ///< features by the model that there is none of
 };
 
