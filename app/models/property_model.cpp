@@ -115,9 +115,12 @@ class ListedModel {
     const osg::ref_ptr<osg::Group> top = new osg::Group;
     top->addChild(all);
     for (const pugi::xml_node& animation : root.children("animation")) animate(animation, *top, *all);
+    std::string others;
     for (const auto& [type, count] : others_)
-      say_(Severity::note, file_, "animations that stand still: range and select",
-           std::to_string(count) + " of type " + type + ", drawn as they are without it");
+      others += (others.empty() ? "" : ", ") + std::to_string(count) + ' ' + type;
+    if (!others.empty())
+      say_(Severity::note, osgDB::getSimpleFileName(file_), "animations of type range and select",
+           "also " + others + ": drawn as without them");
     return top;
   }
 
@@ -172,7 +175,7 @@ class ListedModel {
     const std::string type = textOf(animation.child("type"));
     const bool range = type == "range";
     if (!range && type != "select") {
-      ++others_[type.empty() ? "none" : type];
+      if (!type.empty()) ++others_[type];  // one without a type only groups objects
       return;
     }
     const double from = range ? numberIn(animation, "min-m", 0, kMostRangeM) : 0,
