@@ -4,85 +4,19 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/scene/gl/frame_buffer.h"
 #include "core/scene/gl/gl_api.h"
 #include "core/scene/gl/guard_band.h"
-#include "core/scene/gl/stage_clock.h"
-#include "core/scene/objects/object_drawer.h"
-#include "core/scene/occlusion/horizon_memory.h"
-#include "core/scene/passes/blur_pass.h"
-#include "core/scene/passes/lines.h"
-#include "core/scene/passes/node_pass.h"
-#include "core/scene/passes/precipitation_effect.h"
-#include "core/scene/passes/precipitation_pass.h"
-#include "core/scene/passes/scale_up_pass.h"
-#include "core/scene/passes/scene_programs.h"
-#include "core/scene/passes/symbology_pass.h"
-#include "core/scene/terrain/patches/patch_drawer.h"
-#include "core/scene/terrain/static_trees/tree_drawer.h"
-#include "core/scene/terrain/tiles/tile_drawer.h"
+#include "core/scene/renderer_parts.h"
 #include "trimtab/scene/gl_report.h"
 #include "trimtab/scene/planted_defects.h"
 #include "trimtab/units/sphere.h"
 
 namespace trimtab::scene {
-namespace {
-
-constexpr ViewShape kNoImage{.widthPx = 0, .heightPx = 0};
-
-}  // namespace
-
 std::optional<TerrainForm> formDrawn(const FrameRequest& request, const terrain::Database* database) {
   if (!database) return {};
   return formDrawn(request, FormsOfTerrain{database->index().size() > 0, database->patches() != nullptr,
                                            database->staticLod() != nullptr});
 }
-
-struct Renderer::Impl {
-  GlReport report;
-  std::shared_ptr<const terrain::Database> database;
-  TileDrawer tiles;
-  PatchDrawer patches;
-  TreeDrawer trees;
-  ObjectDrawer objects;
-  TerrainDrawer* terrain = nullptr;  ///< that drew the last image; null: no terrain
-  FrameCounters counters;            ///< since this renderer was made
-
-  /// The last image's, and the size at which its scene was drawn; without pixels before the first image.
-  ViewShape lastView = kNoImage, lastScene = kNoImage;
-  std::optional<SceneView> shown;  ///< the last image's
-  std::vector<LineVertex> lines;
-
-  /// Holds what lives in the context, but for the terrain.
-  struct Gl {
-    explicit Gl(bool software) : blur(software), scaleUp(software) {}
-    FrameBuffer frame;
-    FrameBuffer small;  ///< the scene before it is scaled up, if the request asks for that
-    NodeTarget nodes;
-    ScenePrograms programs;
-    LineBuffer lineBuffer;
-    PrecipitationPass precipitation;
-    std::optional<PrecipitationEffect> effect;  ///< made when it first falls
-    BlurPass blur;
-    ScaleUpPass scaleUp;
-    SymbologyPass symbology;
-    StageClock clock;
-    const ViewportLimits viewports = viewportLimitsOfContext();
-  };
-  std::unique_ptr<Gl> gl;
-
-  std::array<TerrainDrawer*, 3> forms() { return {&tiles, &patches, &trees}; }
-  SceneView viewOf(const FrameRequest& r) const;
-  FrameResult prepare(const FrameRequest& r, SceneView& view);
-  const FrameBuffer& scene() const { return lastScene == lastView ? gl->frame : gl->small; }
-  /// Draws the form of the terrain in the guard band, with its own shaders.
-  void drawForm(const SceneView& view, SceneShaders tilesShaders, bool wire,
-                void (TerrainDrawer::*drawNodes)(unsigned program));
-  FrameResult draw(const FrameRequest& r, unsigned fbo);
-  static void leaveContext(unsigned fbo);
-  /// Reads the numbers of nodes, or of the objects in front of them.
-  std::vector<std::uint32_t> readNumbers(bool unculled, bool ofObjects);
-};
 
 void Renderer::Impl::drawForm(const SceneView& view, SceneShaders tilesShaders, bool wire,
                               void (TerrainDrawer::*drawNodes)(unsigned program)) {
@@ -122,7 +56,7 @@ SceneView Renderer::Impl::viewOf(const FrameRequest& r) const {
 /// Lets the terrain prepare what it draws, and merges what it found into the view and the frame's result.
 FrameResult Renderer::Impl::prepare(const FrameRequest& r, SceneView& view) {
   FrameResult result;
-  terrain = view.form ? forms()[static_cast<std::size_t>(*view.form)] : nullptr;
+  terrain = view.form ? forms()[static_cast<std::size_t>(*view.form)] : foreign.active() ? &foreign : nullptr;
   lines.clear();
   if (terrain) {
     const FrameInProgress frame{r, view.eye, view.shape, view.guardBand, gl->clock, report.software};
@@ -197,6 +131,9 @@ constexpr FramePass kPasses[] = {
      [](const DrawnFrame& f) {
        f.renderer.drawForm(f.view, SceneShaders::tiles, false, &TerrainDrawer::draw);
      }},
+    {"foreign scene", PassTarget::scene, nullptr,
+     [](const DrawnFrame& f) { return f.renderer.terrain == &f.renderer.foreign; },
+     [](const DrawnFrame& f) { f.renderer.foreign.drawScene(f.view.air); }},
     {"objects", PassTarget::scene, nullptr,
      [](const DrawnFrame& f) { return f.view.form && !f.view.treePicture && f.renderer.objects.drawsAny(); },
      [](const DrawnFrame& f) { f.renderer.objects.draw(f.renderer.gl->programs, false); }},
@@ -419,7 +356,7 @@ std::vector<float> Renderer::readHorizon(int samples) {
 }
 
 Findings Renderer::pageFailures() const {
-  return impl_->patches.failures();
+  return impl_->foreign.active() ? impl_->foreign.failures() : impl_->patches.failures();
 }
 
 void plant(Renderer& renderer, const Defects& defects) {

@@ -17,6 +17,7 @@
 #include <osgViewer/Viewer>
 
 #include "core/scene/gl/gl_api.h"
+#include "core/scene/gl/osg_state.h"
 #include "core/scene/shaders/shaders.h"
 
 namespace trimtab::scene {
@@ -114,21 +115,6 @@ struct PrecipitationEffect::Impl {
     effect->setMaximumParticleDensity(effect->getMaximumParticleDensity() * static_cast<float>(share));
     effect->setUseFarLineSegments(kind == Precipitation::rain);
   }
-
-  /// Undoes what others who share the context changed behind OSG's back, and for them what OSG changed.
-  /// State::dirtyAllModes only flips what OSG believes, so this brings that and the true state together.
-  void settleState() {
-    osg::State* state = window->getState();
-    for (const GLenum off :
-         {GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_DEPTH_TEST, GL_LIGHTING, GL_ALPHA_TEST,
-          GL_DEPTH_CLAMP, GL_FRAMEBUFFER_SRGB, GL_VERTEX_PROGRAM_POINT_SIZE}) {
-      glDisable(off);
-      state->haveAppliedMode(off, false);
-    }
-    state->dirtyAllAttributes();
-    state->dirtyAllVertexArrays();
-    state->setLastAppliedProgramObject(nullptr);
-  }
 };
 
 PrecipitationEffect::PrecipitationEffect() : impl_(std::make_unique<Impl>()) {}
@@ -177,9 +163,9 @@ void PrecipitationEffect::draw(const PrecipitationView& falling, const SceneView
   camera->setViewMatrix(osg::Matrixd(eyeMatrix(view.eye.axes).data()));
   camera->setProjectionMatrix(osg::Matrixd(projectionMatrix(view.shape).data()));
   impl_->window->setDefaultFboId(fbo);
-  impl_->settleState();
+  settle(*impl_->window->getState());
   impl_->viewer->frame();
-  impl_->settleState();
+  settle(*impl_->window->getState());
 }
 
 }  // namespace trimtab::scene
