@@ -12,19 +12,18 @@
 #include "app/harness/sweep.h"
 #include "app/harness/text.h"
 #include "app/link/log_options.h"
-#include "app/models/read_model.h"
 #include "commands.h"
+#include "open_terrain.h"
 #include "progress.h"
 #include "settings.h"
 #include "trimtab/measure/trace.h"
-#include "trimtab/terrain/bake/bake.h"
-#include "trimtab/terrain/bake/cache.h"
+#include "trimtab/scene/osg_database.h"
 
 namespace trimtab::cli {
 namespace {
 
 struct BenchOptions {
-  std::string terrain, output, columns, cases = "none,view_frustum,proposed", size = "1280x720";
+  std::string terrain, origin, output, columns, cases = "none,view_frustum,proposed", size = "1280x720";
   std::vector<std::string> flights, presets{"default"}, settings, sweeps;
   std::size_t frames = 60, repeats = 5;
   bool whole = false, json = false;
@@ -146,12 +145,8 @@ int run(const BenchOptions& arguments) {
   report(faults);
   bool usable = readFlights(arguments, plan);
   usable = readPresets(arguments, plan) && usable && faults.empty();
-  const auto terrain = terrain::openOrBake(arguments.terrain, terrain::cacheFolder(), plan.progress,
-                                           terrain::BakeOptions{}.trianglesPerNode,
-                                           terrain::ObjectsToBake{{}, models::readModel});
-  report(terrain.findings());
-  if (!terrain || !usable) return kRefused;
-  plan.terrain = *terrain;
+  plan.terrain = openTerrain(arguments.terrain, arguments.origin, plan.progress);
+  if (!plan.terrain || !usable) return kRefused;
   plan.terrainName = plan.terrain->info().name;
   const Result<harness::Results> results = harness::run(plan, arguments.output);
   report(results.findings());
@@ -170,7 +165,9 @@ void addBench(CLI::App& app, int& exitCode) {
       "The folder gets results.json, frames.csv, report.html and pictures of the worst frames. A run that "
       "was "
       "stopped goes on where it was when the same command is given again.");
-  command->add_option("--terrain", arguments->terrain, "Database, or elevation to bake")->required();
+  command->add_option("--terrain", arguments->terrain, "Database, OpenSceneGraph scene, or elevation to bake")
+      ->required();
+  command->add_option("--origin", arguments->origin, scene::kOriginHelp);
   command->add_option("--flight", arguments->flights, "Flights (CSV, trace or capture); one or more")
       ->required();
   command->add_option("--columns", arguments->columns, link::kColumnsHelp);

@@ -1,22 +1,23 @@
 #include "experiment_setup.h"
-#include "app/models/read_model.h"
 
 #include <filesystem>
 
 #include "app/link/log_options.h"
 #include "commands.h"
+#include "open_terrain.h"
 #include "progress.h"
 #include "settings.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
-#include "trimtab/terrain/bake/bake.h"
-#include "trimtab/terrain/bake/cache.h"
+#include "trimtab/scene/osg_database.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::cli {
 
 void SetupArguments::addTo(CLI::App& command) {
-  command.add_option("--terrain", terrain, "Database, or elevation to bake")->required();
+  command.add_option("--terrain", terrain, "Database, OpenSceneGraph scene, or elevation to bake")
+      ->required();
+  command.add_option("--origin", origin, scene::kOriginHelp);
   command.add_option("--flight", flight, "Places to look from; without it the terrain's own");
   command.add_option("--columns", columns, link::kColumnsHelp);
   command.add_option("--preset", preset, "Preset or export")->capture_default_str();
@@ -47,12 +48,8 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
     usable = head && usable;
     if (head) setup.hold.head = std::move(head).value();
   }
-  const auto terrain = terrain::openOrBake(arguments.terrain, terrain::cacheFolder(), setup.progress,
-                                           terrain::BakeOptions{}.trianglesPerNode,
-                                           terrain::ObjectsToBake{{}, models::readModel});
-  report(terrain.findings());
-  if (!terrain || !usable) return std::nullopt;
-  setup.terrain = *terrain;
+  setup.terrain = openTerrain(arguments.terrain, arguments.origin, setup.progress);
+  if (!setup.terrain || !usable) return std::nullopt;
   setup.terrainName = setup.terrain->info().name;
   setup.parameters = **parameters;
   setup.presetName = arguments.preset;

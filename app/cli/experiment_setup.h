@@ -12,7 +12,7 @@ namespace trimtab::cli {
 
 /// The options that say what an experiment runs on.
 struct SetupArguments {
-  std::string terrain, flight, columns, preset = "default", size = "1280x720";
+  std::string terrain, origin, flight, columns, preset = "default", size = "1280x720";
   std::vector<std::string> settings;
   int repeats = 3;
   double hostRateHz = 200;

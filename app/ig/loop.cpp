@@ -11,6 +11,7 @@
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/load_index.h"
 #include "trimtab/scene/offscreen.h"
+#include "trimtab/scene/osg_database.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/units/labelled.h"
 
@@ -216,7 +217,9 @@ void warmUp(const Run& run, const terrain::Database& database) {
   run.surface.present();
 }
 
-Result<std::shared_ptr<const terrain::Database>> openDatabase(const std::filesystem::path& folder) {
+Result<std::shared_ptr<const terrain::Database>> openDatabase(const Options& options) {
+  const std::filesystem::path& folder = options.terrain;
+  if (scene::isOsgScene(folder)) return scene::openOsgScene(folder, options.origin);
   std::error_code error;
   // A link that leads elsewhere meanwhile must not mix the files of two databases.
   const std::filesystem::path place =
@@ -226,8 +229,8 @@ Result<std::shared_ptr<const terrain::Database>> openDatabase(const std::filesys
       Severity::error,
       folder.string(),
       {},
-      "the folder of a baked terrain database; bake elevation or scenery with `trimtab-cli terrain "
-      "bake`",
+      "the folder of a baked terrain database, or a scene of OpenSceneGraph (.ive, .osgb, .osgt, .txp); bake "
+      "elevation or scenery with `trimtab-cli terrain bake`",
       std::filesystem::exists(folder, error) ? "something else" : "nothing"};
 }
 

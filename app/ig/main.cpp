@@ -13,6 +13,7 @@
 #include "trimtab/hold/cost_model_file.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/scene/load_index.h"
+#include "trimtab/scene/osg_database.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/format/database.h"
 #include "trimtab/terrain/format/store.h"
@@ -78,8 +79,9 @@ int runWith(const Options& options) {
   std::optional<TerrainWatch> terrainWatch;
   if (options.watch)
     terrainWatch.emplace(
-        options.terrain / terrain::kManifestName, [&options] { return openDatabase(options.terrain); }, news);
-  Result<std::shared_ptr<const terrain::Database>> database = openDatabase(options.terrain);
+        scene::isOsgScene(options.terrain) ? options.terrain : options.terrain / terrain::kManifestName,
+        [&options] { return openDatabase(options); }, news);
+  Result<std::shared_ptr<const terrain::Database>> database = openDatabase(options);
   Result<std::unique_ptr<Feed>> feed =
       openFeed(options, preset ? preset->parameters->host : HostParameters{}, wake);
   Result<HeadInput> head = openHeadInput(options);

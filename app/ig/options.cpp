@@ -9,6 +9,7 @@
 
 #include "app/link/log_options.h"
 #include "trimtab/host/protocol_names.h"
+#include "trimtab/scene/osg_database.h"
 
 namespace trimtab::ig {
 namespace {
@@ -37,8 +38,10 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
   app.set_version_flag("--version", TRIMTAB_VERSION);
   app.add_option("--preset", options.preset, "exported preset, edited preset, or a shipped one's name")
       ->required();
-  app.add_option("--terrain", options.terrain, "baked terrain database; 'trimtab-cli terrain bake' makes one")
+  app.add_option("--terrain", options.terrain,
+                 "baked terrain database ('trimtab-cli terrain bake' makes one) or a scene of OpenSceneGraph")
       ->required();
+  app.add_option("--origin", options.origin, scene::kOriginHelp);
   std::map<std::string, HostProtocol> protocols{{"auto", HostProtocol::automatic}};
   for (const ProtocolName& name : kProtocols) protocols.emplace(name.option, name.wanted);
   auto* listen =

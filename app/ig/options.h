@@ -15,6 +15,7 @@ inline constexpr int kDone = 0, kRefused = 1, kUsage = 2;
 struct Options {
   std::string preset;  ///< a file, or a shipped preset's name
   std::filesystem::path terrain;
+  std::string origin;  ///< of a flat OpenSceneGraph scene, LAT,LON
   std::optional<std::uint16_t> listen;
   std::string bindAddress = link::kOwnMachine, group;  ///< of the port that is listened on
   std::string sender = link::kAnyone;                  ///< see link::ReceiverOptions::sender

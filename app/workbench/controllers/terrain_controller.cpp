@@ -12,6 +12,7 @@
 #include "recent_files.h"
 #include "terrain_summary.h"
 #include "trimtab/scene/load_index.h"
+#include "trimtab/scene/osg_database.h"
 #include "trimtab/terrain/bake/bake.h"
 
 namespace trimtab::workbench {
@@ -50,9 +51,9 @@ void TerrainController::connectJob() {
   connect(&job_, &TerrainJob::opened, this, &TerrainController::use);
 }
 
-void TerrainController::open(const QString& source) {
+void TerrainController::open(const QString& source, const QString& origin) {
   asked_ = QFileInfo(source).absoluteFilePath();
-  job_.open(asked_.toStdString());
+  job_.open(asked_.toStdString(), origin.toStdString());
 }
 
 void TerrainController::openSample() {
@@ -64,6 +65,7 @@ void TerrainController::askOpenFile() {
   const QString picked = QFileDialog::getOpenFileName(
       &at_.window, tr("Open terrain"), folderOfRecent(QStringLiteral("terrain")),
       tr("Elevation and scenery (*.tif *.tiff *.hgt *.dt0 *.dt1 *.dt2 *.img *.zip *.btg *.btg.gz *.stg);;"
+         "OpenSceneGraph scenes (*.ive *.osgb *.osgt *.osg *.txp);;"
          "All files (*)"));
   if (!picked.isEmpty()) open(picked);
 }
@@ -88,13 +90,21 @@ void TerrainController::use(std::shared_ptr<const terrain::Database> database, c
   askedFor_ = asked_;
   if (!asked_.isEmpty()) rememberRecent(QStringLiteral("terrain"), asked_);
   const terrain::TerrainInfo& info = database_->info();
-  at_.messages.note(tr("Terrain %1: %L2 × %L3 posts, %L4 to %L5 m, %L6 voids filled")
-                        .arg(QString::fromStdString(info.name))
-                        .arg(info.columns)
-                        .arg(info.rows)
-                        .arg(info.lowest.value(), 0, 'f', 0)
-                        .arg(info.highest.value(), 0, 'f', 0)
-                        .arg(info.voidsFilled));
+  const bool foreign = std::dynamic_pointer_cast<const scene::OsgDatabase>(database_) != nullptr;
+  if (foreign)
+    at_.messages.note(
+        tr("Scene %1, drawn by OpenSceneGraph: LOD scale, allowed error, small features, far distance, "
+           "render "
+           "scale, particles and blur act on it; levels, cases of culling and hidden ground do not")
+            .arg(QString::fromStdString(info.name)));
+  else
+    at_.messages.note(tr("Terrain %1: %L2 × %L3 posts, %L4 to %L5 m, %L6 voids filled")
+                          .arg(QString::fromStdString(info.name))
+                          .arg(info.columns)
+                          .arg(info.rows)
+                          .arg(info.lowest.value(), 0, 'f', 0)
+                          .arg(info.highest.value(), 0, 'f', 0)
+                          .arg(info.voidsFilled));
   at_.feed.setGround(database_);
   at_.feed.session().setLoadIndex(scene::loadIndexOf(database_));
   at_.viewport.setTerrain(database_);

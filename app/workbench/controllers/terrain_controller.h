@@ -27,7 +27,7 @@ class TerrainController : public QObject {
 
   /// Starts to open an elevation file, a folder of them, scenery or a database. Failures are reported in the
   /// Messages dock, and the terrain stays as it was.
-  void open(const QString& source);
+  void open(const QString& source, const QString& origin = {});
   void openSample();
   void askOpenFile();
   void askOpenFolder();

@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "app/models/read_model.h"
+#include "trimtab/scene/osg_database.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/bake/cache.h"
 #include "trimtab/terrain/grid/progress.h"
@@ -31,9 +32,10 @@ void TerrainJob::cancel() {
   emit cancelled();
 }
 
-void TerrainJob::open(const std::filesystem::path& source) {
+void TerrainJob::open(const std::filesystem::path& source, const std::string& origin) {
   start(source, tr("Opening %1").arg(QString::fromStdString(source.filename().string())),
-        [this, source](const terrain::Progress& progress) {
+        [this, source, origin](const terrain::Progress& progress) {
+          if (scene::isOsgScene(source)) return scene::openOsgScene(source, origin);
           tell({source});
           return terrain::openOrBake(source, terrain::cacheFolder(), progress,
                                      terrain::BakeOptions{}.trianglesPerNode,

@@ -24,7 +24,8 @@ class TerrainJob : public QObject {
   ~TerrainJob() override;
 
   /// Opens an elevation file, a folder of them, a CDB with what stands in it, or a database.
-  void open(const std::filesystem::path& source);
+  /// `origin` is that of a flat OpenSceneGraph scene, LAT,LON.
+  void open(const std::filesystem::path& source, const std::string& origin = {});
   /// Opens the built-in sample terrain. It is made and baked once per user.
   void openSample();
   /// Bakes a database and opens it. The same options again resume a bake that was stopped.

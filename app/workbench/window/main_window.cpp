@@ -351,7 +351,7 @@ void MainWindow::start(const Options& options) {
   if (options.terrain.isEmpty())
     c.terrain->openSample();
   else
-    c.terrain->open(options.terrain);
+    c.terrain->open(options.terrain, options.origin);
   if (!options.flight.isEmpty() && c.flight->open(options.flight)) panels_.flight->play();
   if (!options.head.isEmpty()) c.head->open(options.head);
   if (options.listenPort) {

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "trimtab/scene/osg_database.h"
+
 namespace trimtab::workbench {
 namespace {
 
@@ -34,7 +36,10 @@ Parsed parseOptions(const QStringList& arguments) {
   const QCommandLineOption preset("preset", "Open this preset: a file, or the name of a shipped preset.",
                                   "P");
   const QCommandLineOption terrain(
-      "terrain", "Open this terrain: an elevation file, a folder, scenery or a database.", "DB");
+      "terrain",
+      "Open this terrain: an elevation file, a folder, scenery, a database or an OpenSceneGraph scene.",
+      "DB");
+  const QCommandLineOption origin("origin", scene::kOriginHelp, "LAT,LON");
   const QCommandLineOption listen("listen", "Listen for a host on this UDP port.", "PORT");
   const QCommandLineOption bind("bind", "Listen on the interface of this address; 0.0.0.0: every one.",
                                 "ADDRESS");
@@ -52,8 +57,8 @@ Parsed parseOptions(const QStringList& arguments) {
   const QCommandLineOption size("size", "Size of the window.", "WxH");
   parser.addPositionalArgument(
       "FILE", "Open it: a session, preset, terrain, flight, head log, rules or results.", "[FILE...]");
-  parser.addOptions(
-      {help, version, preset, terrain, listen, bind, from, fly, head, screenshot, after, exportTo, size});
+  parser.addOptions({help, version, preset, terrain, origin, listen, bind, from, fly, head, screenshot, after,
+                     exportTo, size});
 
   Parsed parsed;
   Options& options = parsed.options;
@@ -79,6 +84,7 @@ Parsed parseOptions(const QStringList& arguments) {
   }
   options.preset = parser.value(preset);
   options.terrain = parser.value(terrain);
+  options.origin = parser.value(origin);
   options.bind = parser.value(bind);
   options.from = parser.value(from);
   if ((!options.bind.isEmpty() || !options.from.isEmpty()) && !parser.isSet(listen))

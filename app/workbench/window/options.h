@@ -12,7 +12,8 @@ namespace trimtab::workbench {
 /// What the command line asks for.
 struct Options {
   QString preset;   ///< a file or the name of a shipped preset; empty: "default"
-  QString terrain;  ///< an elevation file, a folder or a database; empty: the sample
+  QString terrain;  ///< an elevation file, a folder, a database or a scene; empty: the sample
+  QString origin;   ///< of a flat OpenSceneGraph scene
   std::optional<std::uint16_t> listenPort;
   QString bind,
       from;        ///< of that port: interface and sender; empty: as they were chosen last in the dock Host

@@ -260,6 +260,14 @@ bool isOsgScene(const std::filesystem::path& file) {
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
+Result<std::shared_ptr<const terrain::Database>> openOsgScene(const std::filesystem::path& file,
+                                                              const std::string& origin) {
+  if (origin.empty()) return OsgDatabase::open(file, {});
+  const Result<GeodeticPosition> place = originFrom(origin);
+  if (!place) return place.findings();
+  return OsgDatabase::open(file, *place);
+}
+
 Result<GeodeticPosition> originFrom(const std::string& text) {
   const std::size_t comma = text.find(',');
   if (comma != std::string::npos) {

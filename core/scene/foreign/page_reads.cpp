@@ -10,7 +10,8 @@ namespace {
 /// Makes pages of a read node be read with the same options, so that each of them comes by PageReads.
 class HandsDown final : public osg::NodeVisitor {
  public:
-  explicit HandsDown(osg::ref_ptr<osgDB::Options> options) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), options_(std::move(options)) {}
+  explicit HandsDown(osg::ref_ptr<osgDB::Options> options)
+      : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), options_(std::move(options)) {}
   void apply(osg::PagedLOD& node) override {
     node.setDatabaseOptions(options_.get());
     traverse(node);

@@ -32,4 +32,10 @@ bool isOsgScene(const std::filesystem::path& file);
 /// Reads "LAT,LON", degrees, as the origin of a scene with flat coordinates.
 Result<GeodeticPosition> originFrom(const std::string& text);
 
+/// Opens a scene with what the option --origin says; empty: nothing.
+Result<std::shared_ptr<const terrain::Database>> openOsgScene(const std::filesystem::path& file,
+                                                              const std::string& origin);
+inline constexpr const char* kOriginHelp =
+    "LAT,LON where coordinates of a flat OpenSceneGraph scene are 0; they are metres east, north and up";
+
 }  // namespace trimtab::scene
