@@ -180,11 +180,14 @@ void OsgDrawer::drawScene(const Air& air) {
   scene_->fog->setColor({air.colour[0], air.colour[1], air.colour[2], 1});
   GLint frame = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &frame);
+  const osg::Viewport& image = *view.getViewport();
   glUseProgram(0);
   settle(*view.getState());
   view.draw();
   settle(*view.getState());
   view.getState()->disableAllVertexArrays();
+  // OSG goes back to the viewport of its first frame.
+  glViewport(0, 0, static_cast<GLsizei>(image.width()), static_cast<GLsizei>(image.height()));
   glDisable(GL_FOG);
   view.getState()->haveAppliedMode(GL_FOG, false);
   glActiveTexture(GL_TEXTURE0);

@@ -184,6 +184,12 @@ TEST_F(OsgScene, leavesOtherPassesAsTheyWere) {
   const auto sky = picture(r);
   EXPECT_GT(differing(sky, picture(view(0.3, 0.3, 45, -5))), 1000u) << "the sky is ours";
   EXPECT_EQ(differing(sky, picture(r)), 0u);
+  FrameRequest small = r;
+  small.view.widthPx = kWidth / 2;
+  small.view.heightPx = kHeight / 2;
+  open();
+  picture(small);
+  EXPECT_EQ(differing(sky, picture(r)), 0u) << "after another size the sky fills the image";
   use(test::syntheticMountains());
   EXPECT_EQ(differing(picture(mountains), before), 0u);
 }
