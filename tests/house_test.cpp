@@ -30,6 +30,7 @@ const std::vector<std::string> kLayers{"core/units",
                                        "core/decision",
                                        "core/measure",
                                        "core/session",
+                                       "core/interface",
                                        "core/terrain/grid",
                                        "core/terrain/format",
                                        "core/terrain/mesh",
@@ -63,6 +64,7 @@ std::size_t layerOf(const std::string& path) {
 /// The file that an include names, relative to the root; empty where it is none of ours.
 std::string included(const std::string& name) {
   if (!name.starts_with("trimtab/")) return name.find('/') == std::string::npos ? "" : name;
+  if (name == "trimtab/trimtab.h") return "core/interface/include/" + name;  // as programs in C spell it
   const std::string module = name.substr(8, name.rfind('/') - 8);
   return "core/" + module + "/include/" + name;
 }
