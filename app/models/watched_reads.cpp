@@ -38,7 +38,7 @@ ReadResult readBytes(const std::string& file, const osgDB::Options* options) {
   if (reader == nullptr) return ReadResult::FILE_NOT_HANDLED;
   const std::string found = isInArchive(file) ? file : osgDB::findDataFile(file, options);
   if (found.empty()) return ReadResult::FILE_NOT_FOUND;
-  auto bytes = terrain::bytesOfCdbFile(found);
+  auto bytes = terrain::bytesOfFile(found);
   if (!bytes) return ReadResult(bytes.findings().front().found);
   const osg::ref_ptr<osgDB::Options> local =
       options != nullptr ? options->cloneOptions() : new osgDB::Options;
@@ -71,7 +71,7 @@ std::string modelFormats() {
 
 ReadResult imageInArchive(const std::string& file, const osgDB::Options* options) {
   osgDB::ReaderWriter* const reader = readerOf(file);
-  const auto bytes = terrain::bytesOfCdbFile(file);
+  const auto bytes = terrain::bytesOfFile(file);
   if (reader == nullptr || !bytes) return ReadResult::ERROR_IN_READING_FILE;
   std::istringstream in(*bytes);
   return reader->readImage(in, options);

@@ -40,6 +40,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!(std::abs(p.aboveGround.value()) <= PlacementLimits::kHeightM)) std::abort();
   }
   for (const ModelFile& model : features.models)
-    if (!terrain::bytesOfCdbFile(model.file, 1 << 20) && first != 'P') std::abort();
+    if (!terrain::bytesOfFile(model.file, 1 << 20) && first != 'P') std::abort();
   return 0;
 }

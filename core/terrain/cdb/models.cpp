@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <set>
 
@@ -226,7 +227,9 @@ std::optional<std::string> CdbModels::specific(const CdbTile& feature, double lo
   return found == files.end() ? std::nullopt : std::optional(found->second);
 }
 
-Result<std::string> bytesOfCdbFile(const std::string& file, std::size_t mostBytes) {
+Result<std::string> bytesOfFile(const std::string& file, std::size_t mostInArchive) {
+  const std::size_t mostBytes =
+      file.starts_with(kZip) ? mostInArchive : std::numeric_limits<std::size_t>::max();
   CPLPushErrorHandler(CPLQuietErrorHandler);
   CPLErrorReset();
   std::string bytes, why;

@@ -177,8 +177,8 @@ TEST_F(CdbFeaturesTest, modelsOfOnePlaceAreInTheArchiveOfTheirLevel) {
   CdbFeatures features = read();
   EXPECT_EQ(said_, "");
   ASSERT_EQ(features.models.size(), 2u);
-  EXPECT_EQ(bytesOfCdbFile(features.models[0].file).value(), "hut");
-  EXPECT_EQ(bytesOfCdbFile(features.models[1].file).value(), "inn");
+  EXPECT_EQ(bytesOfFile(features.models[0].file).value(), "hut");
+  EXPECT_EQ(bytesOfFile(features.models[1].file).value(), "inn");
   // Another quarter of the cell has no archive, and there is no level 60.
   EXPECT_EQ(features.withoutModel,
             (std::map<std::string, std::size_t>{{"AL015_007_hut", 1}, {"AL015_007_mill", 1}}));
@@ -256,8 +256,8 @@ TEST_F(CdbFeaturesTest, aMissingTextureHasTheNearestLevelThereIs) {
     return cdbTexture("../../../301_GSModelTexture/L06/U47/S34E018_D301_S001_T001_L06_U47_R50_" + name,
                       "/vsizip/" + cdb_.fileOf(model, ".zip").string() + "/house.flt");
   };
-  EXPECT_EQ(bytesOfCdbFile(inArchive("roof.rgb").value()).value(), "roof");
-  EXPECT_EQ(bytesOfCdbFile(inArchive("W09_wall.rgb").value()).value(), "wall 3");
+  EXPECT_EQ(bytesOfFile(inArchive("roof.rgb").value()).value(), "roof");
+  EXPECT_EQ(bytesOfFile(inArchive("W09_wall.rgb").value()).value(), "wall 3");
   EXPECT_FALSE(inArchive("floor.rgb"));
 }
 

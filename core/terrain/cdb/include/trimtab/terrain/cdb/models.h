@@ -46,8 +46,10 @@ class CdbModels {
   FindingList findings_;
 };
 
-/// Returns the bytes of a file on disk or inside an archive, at most `mostBytes`; fails with the reason.
-Result<std::string> bytesOfCdbFile(const std::string& file, std::size_t mostBytes = std::size_t{256} << 20);
+/// Returns the bytes of a file on disk or, as "/vsizip/ARCHIVE/NAME", inside an archive; fails with the
+/// reason. A file inside an archive may have at most `mostInArchive` bytes, because a few bytes there can
+/// stand for any number.
+Result<std::string> bytesOfFile(const std::string& file, std::size_t mostInArchive = std::size_t{256} << 20);
 
 /// Returns the file of a texture that a model of a CDB asks for and that is not where it says: the level W
 /// nearest to the one in its name, the finer one of two, from the folder that it names or from the archives
