@@ -49,16 +49,39 @@ TEST_F(InstalledCore, servesAConsumerThroughPkgConfigAlsoAfterAMove) {
   EXPECT_EQ(run(program + " " + (dir_ / "export.json").string()).out, expected_);
 }
 
+// The component `interface` alone, in a prefix of its own: a program in C needs nothing else.
+TEST_F(InstalledCore, servesAConsumerInCThroughCmakeAndPkgConfigAlsoAfterAMove) {
+  const std::string prefix = (dir_ / "c-prefix").string(), moved = (dir_ / "c-moved").string(),
+                    source = (sourceDir() / "tests/core/install/c_consumer").string(),
+                    build = (dir_ / "c-build").string(), preset = (dir_ / "export.json").string();
+  const Ran installed = run("cmake --install " TRIMTAB_BUILD_DIR " --component interface --prefix " + prefix);
+  ASSERT_EQ(installed.exitCode, 0) << installed.err;
+  const Ran built = run("cmake -S " + source + " -B " + build + " -G Ninja -DCMAKE_PREFIX_PATH=" + prefix +
+                        " && cmake --build " + build);
+  ASSERT_EQ(built.exitCode, 0) << built.out << built.err;
+  EXPECT_EQ(run(build + "/c_consumer " + preset).out, expected_);
+
+  std::filesystem::rename(prefix, moved);
+  const Ran again =
+      run("export PKG_CONFIG_PATH=$(dirname $(find " + moved + " -name trimtab.pc)); cc -std=c99 " + source +
+          "/main.c $(pkg-config --cflags --libs trimtab) -o " + build + "/again");
+  ASSERT_EQ(again.exitCode, 0) << again.err;
+  EXPECT_EQ(run("LD_LIBRARY_PATH=$(dirname $(find " + moved + " -name libtrimtab.so.1)) " + build +
+                "/again " + preset)
+                .out,
+            expected_);
+}
+
 TEST_F(InstalledCore, bringsLicenceSchemaAndAnExampleThatBuilds) {
   const std::filesystem::path share = std::filesystem::path(prefix_) / "share", doc = share / "doc/trimtab";
   for (const auto& file :
-       {doc / "LICENSE", doc / "LICENSE.MIT", doc / "integrating.md", share / "trimtab/presets/preset.schema.json",
-        share / "trimtab/presets/default.json"})
+       {doc / "LICENSE", doc / "LICENSE.MIT", doc / "integrating.md",
+        share / "trimtab/presets/preset.schema.json", share / "trimtab/presets/default.json"})
     EXPECT_TRUE(std::filesystem::exists(file)) << file;
   const std::string build = (dir_ / "example").string();
   const Ran built = run("cmake -S " + (doc / "examples/follower").string() + " -B " + build +
-                        " -G Ninja -DCMAKE_PREFIX_PATH=" + prefix_ + " -DCMAKE_CXX_COMPILER=" TRIMTAB_CXX
-                        " && cmake --build " + build);
+                        " -G Ninja -DCMAKE_PREFIX_PATH=" + prefix_ +
+                        " -DCMAKE_CXX_COMPILER=" TRIMTAB_CXX " && cmake --build " + build);
   EXPECT_EQ(built.exitCode, 0) << built.out << built.err;
 }
 

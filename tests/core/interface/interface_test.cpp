@@ -173,10 +173,14 @@ TEST(Interface, writesATraceThatReplaysToTheBit) {
   for (; s.time_s < 3; s.time_s += 0.1) ASSERT_EQ(trimtab_session_fly(made.session, &s), TRIMTAB_OK);
   ASSERT_EQ(trimtab_session_trace_finish(made.session, nullptr), TRIMTAB_OK);
   EXPECT_GT(readFile(file).size(), 1000u);
+  const auto trace = readTrace(file);
+  ASSERT_TRUE(trace) << toString(trace.findings());
+  ASSERT_EQ(trace->rows.size(), 31u);
   Session session(shipped("default"));
-  AircraftState state;
-  state.position.height = Metres{1500};
-  session.fly(state);
+  for (const TraceRow& row : trace->rows) {
+    session.replay(row);
+    EXPECT_EQ(session.decision(), row.decision);
+  }
   EXPECT_EQ(made.explained(), explain(session.decision(), session.parameters()));
 }
 
