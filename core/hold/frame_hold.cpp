@@ -11,6 +11,15 @@ std::optional<TerrainForm> formOf(const FrameRequest& r, const LoadIndex& index)
   return formDrawn(r, {index.tiles != nullptr, index.patches != nullptr, index.trees != nullptr});
 }
 
+/// Returns what an image may draw of a scene whose levels are not known, as one of OpenSceneGraph: the last
+/// image's triangles, and half as many for each octave by which the allowed error is larger.
+TriangleLadder ladderFromLast(double triangles, double drawnPx, double askedPx) {
+  TriangleLadder ladder;
+  for (std::size_t k = 0; k < kErrorSteps; ++k)
+    ladder[k] = triangles * drawnPx / errorAtPlace(static_cast<std::uint8_t>(k), askedPx);
+  return ladder;
+}
+
 }  // namespace
 
 void FrameHold::setIndex(std::shared_ptr<const LoadIndex> index) {
@@ -50,10 +59,9 @@ TriangleLadder FrameHold::count(const FrameRequest& request, const LoadView& vie
 
 TriangleLadder FrameHold::countGround(const FrameRequest& request, const LoadView& view) {
   const std::optional<TerrainForm> form = formOf(request, *index_);
-  TriangleLadder ladder;
-  ladder.fill(lastTriangles_);
-  if (!form) return ladder;
   const double askedPx = request.levers.policy.errorPx;
+  if (!form) return ladderFromLast(lastTriangles_, held_.errorPx > 0 ? held_.errorPx : askedPx, askedPx);
+  TriangleLadder ladder;
   if (*form == TerrainForm::static_trees) {
     ladder = countTriangles(*index_->trees, treeErrorOf(request.staticLod.error), view,
                             staticLodRuleOf(request), askedPx, stack_);

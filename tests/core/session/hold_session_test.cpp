@@ -117,6 +117,43 @@ TEST(HoldSession, keepsImagesWithinTheBudgetOnceItKnowsTheirCost) {
   EXPECT_LE(over, 12);
 }
 
+/// A scene of OpenSceneGraph has no index. Its triangles fall by some power of the allowed error.
+TEST(HoldSession, keepsASceneWithinTheBudgetWhoseLevelsNobodyKnows) {
+  constexpr double kBudget = 14;
+  for (const double power : {0.6, 1.0, 1.6}) {
+    Session session(holding(kBudget));
+    auto noForms = std::make_shared<LoadIndex>();
+    noForms->frame = LocalFrame(GeodeticPosition{});
+    session.setLoadIndex(noForms);
+    std::mt19937 random(5);
+    int over = 0;
+    double sum = 0;
+    constexpr int kImages = 800, kLearning = 150;
+    for (int i = 0; i < kImages; ++i) {
+      AircraftState state = stateOf(i);
+      state.weather.reset();
+      session.fly(state, state.time);
+      const FrameRequest request = *session.request(state.time, 640, 360);
+      FrameResult result;
+      const double there = 1.2e5 * (1 + 0.4 * std::sin(i / 60.0));
+      result.visible.triangles =
+          static_cast<std::uint64_t>(there * std::pow(2 / request.levers.drawn.errorPx, power));
+      FrameCost& c = result.cost;
+      c.weather = c.blur = c.gpu = c.page = c.symbology = kNan;
+      c.draw = std::normal_distribution<double>(1, 0.02)(random) *
+               (3 + 2e-4 * static_cast<double>(result.visible.triangles));
+      c.total = c.draw;
+      const double ms = session.finished(result, state.time).total;
+      if (i < kLearning) continue;
+      over += ms > 1.1 * kBudget;
+      sum += ms;
+    }
+    EXPECT_LE(over, (kImages - kLearning) / 100) << power;
+    EXPECT_GT(sum / (kImages - kLearning), 0.5 * kBudget) << power << ": far coarser than it need be";
+    std::printf("power %.1f: %d images over, mean %.2f ms\n", power, over, sum / (kImages - kLearning));
+  }
+}
+
 TEST(HoldSession, countsWhatFallsWhileItFades) {
   Session session(holding(14));
   session.setLoadIndex(tiles());
