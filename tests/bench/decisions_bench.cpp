@@ -7,6 +7,7 @@
 #include <map>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "policy_bench.h"
@@ -17,6 +18,8 @@
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/trace.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/session/session.h"
+#include "trimtab/trimtab.h"
 
 /// Group `decisions`: what deciding costs and how exact it is, over the sample flight.
 
@@ -224,6 +227,42 @@ void traceSpeed(Report& report, const std::vector<FrameInput>& inputs) {
                              "us", "as many numbers by snprintf %.17g", peer / rows * 1e6, "run"}));
 }
 
+/// A state through the C interface against Session::fly, with a policy.
+void throughC(Report& report, const Flight& flight) {
+  trimtab_preset* preset = nullptr;
+  trimtab_session* session = nullptr;
+  if (trimtab_preset_load("low-level", &preset, nullptr) != TRIMTAB_OK ||
+      trimtab_session_create(preset, &session) != TRIMTAB_OK)
+    return;
+  std::vector<trimtab_state> states;
+  for (const AircraftState& s : flight.states) {
+    trimtab_state& state = states.emplace_back();
+    state.size = sizeof state;
+    trimtab_state_clear(&state);
+    state.time_s = s.time;
+    state.latitude_deg = s.position.latitude.value();
+    state.longitude_deg = s.position.longitude.value();
+    state.height_m = s.position.height.value();
+    state.heading_deg = s.attitude.heading.value();
+    state.pitch_deg = s.attitude.pitch.value();
+    state.roll_deg = s.attitude.roll.value();
+  }
+  Session own(*validate(loadPreset("low-level")->parameters));
+  const auto fly = [&] {
+    for (const AircraftState& s : flight.states) own.fly(s);
+  };
+  const auto flyInC = [&] {
+    for (const trimtab_state& s : states) trimtab_session_fly(session, &s);
+  };
+  const auto [direct, byC] = leastInTurn(report.quick() ? 3 : 20, std::pair{3, fly}, std::pair{3, flyInC});
+  trimtab_session_free(session);
+  trimtab_preset_free(preset);
+  const auto decisions = static_cast<double>(states.size());
+  report.add(ratioAtMost(
+      1.5, {"decisions.through_c", "time of a decision through the C interface", byC / decisions * 1e6, "us",
+            "Session::fly from C++ over the same states", direct / decisions * 1e6, "run"}));
+}
+
 }  // namespace
 }  // namespace trimtab::bench
 
@@ -238,6 +277,7 @@ int main(int argc, char** argv) {
   const std::vector<FrameInput> inputs = bench::inputsOf(*flight);
   if (report.wants("speed")) bench::speed(report, inputs);
   if (report.wants("policy")) bench::policies(report);
+  if (report.wants("through_c")) bench::throughC(report, *flight);
   if (report.wants("trace")) bench::traceSpeed(report, inputs);
   if (report.wants("exactness")) bench::exactness(report, inputs);
   return report.finish();

@@ -175,9 +175,9 @@ TEST(Interface, writesATraceThatReplaysToTheBit) {
   EXPECT_GT(readFile(file).size(), 1000u);
   const auto trace = readTrace(file);
   ASSERT_TRUE(trace) << toString(trace.findings());
-  ASSERT_EQ(trace->rows.size(), 31u);
+  ASSERT_EQ(trace->size(), 30u);
   Session session(shipped("default"));
-  for (const TraceRow& row : trace->rows) {
+  for (const TraceRow& row : *trace) {
     session.replay(row);
     EXPECT_EQ(session.decision(), row.decision);
   }

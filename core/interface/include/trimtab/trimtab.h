@@ -117,7 +117,7 @@ trimtab_status trimtab_session_fly(trimtab_session* session, const trimtab_state
 /* Each frame. Decides a state of a live host, which arrived at `arrival_s`. */
 trimtab_status trimtab_session_receive(trimtab_session* session, const trimtab_state* state, double arrival_s,
                                        double now_s);
-/* Each frame. Decodes a datagram (CIGI 3 or 4, native-fdm, DIS, X-Plane; told apart by content, or as the preset says)
+/* Decodes a datagram (CIGI 3 or 4, native-fdm, DIS, X-Plane; told apart by content, or as the preset says)
  * and decides its state. TRIMTAB_NOTHING if it leads to none; trimtab_session_explain_host says why. `from` names the
  * sender, "127.0.0.1:5500"; it is copied. */
 trimtab_status trimtab_session_datagram(trimtab_session* session, const void* bytes, size_t length, const char* from,
