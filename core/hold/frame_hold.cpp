@@ -15,8 +15,10 @@ std::optional<TerrainForm> formOf(const FrameRequest& r, const LoadIndex& index)
 /// image's triangles, and half as many for each octave by which the allowed error is larger.
 TriangleLadder ladderFromLast(double triangles, double drawnPx, double askedPx) {
   TriangleLadder ladder;
-  for (std::size_t k = 0; k < kErrorSteps; ++k)
-    ladder[k] = triangles * drawnPx / errorAtPlace(static_cast<std::uint8_t>(k), askedPx);
+  ladder[0] = triangles * drawnPx / askedPx;
+  for (std::size_t k = 1; k < kErrorSteps; ++k)
+    ladder[k] = ladder[0] *
+                std::exp2(-(placesToNext(askedPx) + static_cast<double>(k - 1)) / double{kPlacesPerOctave});
   return ladder;
 }
 
