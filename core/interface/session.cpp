@@ -6,7 +6,10 @@
 using namespace trimtab;
 
 trimtab_session::trimtab_session(const ValidatedParameters& parameters)
-    : session(parameters), decoder(HostChoice(parameters->host)) {}
+    : session(parameters), decoder(HostChoice(parameters->host)) {
+  // No form of a terrain is known: the budget goes by the triangles that the caller reports.
+  session.setLoadIndex(std::make_shared<const LoadIndex>());
+}
 
 const LeverChain& trimtab_session::levers() {
   if (image) return image->levers;

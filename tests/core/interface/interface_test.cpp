@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <random>
 
 #include "tests/support.h"
 #include "trimtab/decision/decide.h"
@@ -122,8 +123,8 @@ TEST(Interface, allocatesNothingAFrame) {
 
 /// A session of a shipped preset, through C.
 struct Made {
-  Made() {
-    EXPECT_EQ(trimtab_preset_load("default", &preset, nullptr), TRIMTAB_OK);
+  explicit Made(const char* nameOrFile = "default") {
+    EXPECT_EQ(trimtab_preset_load(nameOrFile, &preset, nullptr), TRIMTAB_OK);
     EXPECT_EQ(trimtab_session_create(preset, &session), TRIMTAB_OK);
   }
   ~Made() {
@@ -182,6 +183,46 @@ TEST(Interface, writesATraceThatReplaysToTheBit) {
     EXPECT_EQ(session.decision(), row.decision);
   }
   EXPECT_EQ(made.explained(), explain(session.decision(), session.parameters()));
+}
+
+/// An IG whose triangles fall by some power of the allowed error, which nobody told the library.
+TEST(Interface, holdsABudgetByWhatTheProgramReports) {
+  constexpr double kBudgetMs = 14;
+  constexpr int kImages = 800, kLearning = 150;
+  TuningParameters p;
+  p.hold.enabled = true;
+  p.measure.budget = Milliseconds{kBudgetMs};
+  const ScratchDir dir;
+  const std::string file = (dir / "held.json").string();
+  writeFile(file, exportText(*validate(p), "held", {}, ExportFormat::json));
+  for (const double power : {0.7, 1.4}) {
+    const Made made(file.c_str());
+    trimtab_state s{};
+    s.size = sizeof s;
+    trimtab_state_clear(&s);
+    trimtab_frame frame{};
+    frame.size = sizeof frame;
+    trimtab_frame_clear(&frame);
+    std::mt19937 random(3);
+    int over = 0;
+    for (int i = 0; i < kImages; ++i) {
+      s.time_s = i / 60.0;
+      s.packet = static_cast<std::uint64_t>(i);
+      s.height_m = 1500;
+      s.latitude_deg = 1e-5 * i;
+      ASSERT_EQ(trimtab_session_fly(made.session, &s), TRIMTAB_OK);
+      ASSERT_EQ(trimtab_session_request(made.session, s.time_s, 640, 360, nullptr), TRIMTAB_OK);
+      double errorPx = 0;
+      ASSERT_EQ(trimtab_session_lever(made.session, "screen_space_error", &errorPx, nullptr), TRIMTAB_OK);
+      const double there = 1.2e5 * (1 + 0.4 * std::sin(i / 60.0));
+      frame.triangles = static_cast<std::uint64_t>(there * std::pow(2 / errorPx, power));
+      frame.draw_ms = frame.total_ms = std::normal_distribution<double>(1, 0.02)(random) *
+                                       (3 + 2e-4 * static_cast<double>(frame.triangles));
+      ASSERT_EQ(trimtab_session_finished(made.session, &frame, s.time_s), TRIMTAB_OK);
+      over += i >= kLearning && frame.total_ms > 1.1 * kBudgetMs;
+    }
+    EXPECT_LE(over, (kImages - kLearning) / 100) << power;
+  }
 }
 
 TEST(Interface, saysWhyADatagramLeadsToNoState) {
