@@ -35,8 +35,9 @@ class OsgScene : public test::SceneTest {
         4, 0.002, GeodeticPosition{Degrees{46.2}, Degrees{7.9}, Metres{0}}, hills);
   }
   /// Writes the scene and opens it as the terrain.
-  void open(const std::string& ending = ".osgb") {
-    scene = std::make_unique<test::PagedScene>(*source, dir.path(), ending, true);
+  void open(const std::string& ending = ".osgb", const std::filesystem::path& folder = {}, int levels = 3) {
+    scene = std::make_unique<test::PagedScene>(*source, folder.empty() ? dir.path() : folder, ending, true,
+                                               levels);
     ASSERT_TRUE(scene->written());
     auto opened = scene::OsgDatabase::open(scene->file(), {});
     ASSERT_TRUE(opened) << toString(opened.findings());
@@ -143,6 +144,42 @@ TEST_F(OsgScene, looksAsOsgsOwnViewerShowsIt) {
       EXPECT_GT(result.paging.pagesRead, 1u);
     }
   }
+}
+
+/// Six levels over 85 km of real mountains. With TRIMTAB_SHOTS the scene stays there, for measurements by
+/// hand.
+TEST_F(OsgScene, ofEverestLooksAsOsgsOwnViewerShowsIt) {
+  TRIMTAB_NEEDS_SHARED("data/dem-srtm3-everest");
+  const auto dem = bakeShared("dem-srtm3-everest");
+  ASSERT_TRUE(dem);
+  constexpr double kStep = 1.0 / 1200;
+  const GeodeticPosition corner{dem->info().southWest.latitude + Degrees{kStep},
+                                dem->info().southWest.longitude + Degrees{kStep}, Metres{0}};
+  source = std::make_unique<test::SyntheticTerrain>(16, kStep, corner, [&](int column, int row) {
+    return dem->heightAt(corner.latitude + Degrees{row * kStep}, corner.longitude + Degrees{column * kStep})
+        .value_or(Metres{0})
+        .value();
+  });
+  const char* const shots = std::getenv("TRIMTAB_SHOTS");
+  const std::filesystem::path folder = shots ? std::filesystem::path(shots) / "everest" : dir / "everest";
+  std::filesystem::create_directories(folder);
+  open(".osgb", folder, 6);
+  std::uint64_t fine = 0, coarse = 0;
+  int i = 0;
+  for (FrameRequest r :
+       {view(0.5, 0.4, 30, -10), view(0.3, 0.3, 75, -20, 300), view(0.7, 0.8, 200, -5, 2500)}) {
+    FrameResult result;
+    const auto ours = picture(r, &result);
+    save("osg_everest" + std::to_string(i++), ours);
+    EXPECT_EQ(differing(ours, plain(r)), 0u) << "view " << i;
+    fine += result.visible.triangles;
+    r.levers.drawn.lodScale = 4;
+    picture(r, &result);
+    coarse += result.visible.triangles;
+  }
+  EXPECT_GT(fine, 3 * coarse / 2);
+  std::printf("triangles: %llu at LOD scale 1, %llu at 4\n", static_cast<unsigned long long>(fine),
+              static_cast<unsigned long long>(coarse));
 }
 
 TEST_F(OsgScene, followsItsLevers) {

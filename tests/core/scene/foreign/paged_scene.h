@@ -16,12 +16,16 @@ namespace trimtab::test {
 
 class PagedScene {
  public:
-  static constexpr int kLevels = 3, kCells = 16;
+  static constexpr int kCells = 16;
 
   /// Writes `folder`/scene.ENDING and its pages; `geocentric`, or else metres of the terrain's own frame.
   PagedScene(const SyntheticTerrain& terrain, std::filesystem::path folder, std::string ending,
-             bool geocentric)
-      : terrain_(terrain), folder_(std::move(folder)), ending_(std::move(ending)), geocentric_(geocentric) {
+             bool geocentric, int levels = 3)
+      : terrain_(terrain),
+        folder_(std::move(folder)),
+        ending_(std::move(ending)),
+        geocentric_(geocentric),
+        levels_(levels) {
     osg::ref_ptr<osg::Group> root = geocentric ? new osg::CoordinateSystemNode : new osg::Group;
     if (geocentric)
       static_cast<osg::CoordinateSystemNode*>(root.get())->setEllipsoidModel(new osg::EllipsoidModel);
@@ -82,7 +86,7 @@ class PagedScene {
   /// Returns a tile; below the last level it names its page, which is written too.
   osg::ref_ptr<osg::Node> tile(int level, int column, int row) {
     osg::ref_ptr<osg::Node> own = surface(level, column, row);
-    if (level + 1 == kLevels) return own;
+    if (level + 1 == levels_) return own;
     osg::ref_ptr<osg::Group> finer = new osg::Group;
     for (int i = 0; i < 4; ++i) finer->addChild(tile(level + 1, 2 * column + i % 2, 2 * row + i / 2));
     osgDB::writeNodeFile(*finer, page(level, column, row).string());
@@ -100,6 +104,7 @@ class PagedScene {
   std::filesystem::path folder_;
   std::string ending_;
   bool geocentric_, written_ = false;
+  int levels_;
 };
 
 }  // namespace trimtab::test
