@@ -186,7 +186,7 @@ void OsgDrawer::drawScene(const Air& air) {
   view.draw();
   settle(*view.getState());
   view.getState()->disableAllVertexArrays();
-  // OSG goes back to the viewport of its first frame.
+  // OSG leaves a viewport of 800 x 600, not the image's.
   glViewport(0, 0, static_cast<GLsizei>(image.width()), static_cast<GLsizei>(image.height()));
   glDisable(GL_FOG);
   view.getState()->haveAppliedMode(GL_FOG, false);
