@@ -66,7 +66,8 @@ Summary drawFrames(const Run& run);
 /// Draws the last image again and writes it: after a swap of buffers its pixels are undefined.
 Result<Done> takeScreenshot(const Run& run, const Summary& summary, const std::filesystem::path& file);
 
-/// Opens a baked database or a scene of OpenSceneGraph. The IG bakes nothing itself, so that it needs no GDAL.
+/// Opens a baked database or a scene of OpenSceneGraph. The IG bakes nothing itself, so that it needs no
+/// GDAL.
 Result<std::shared_ptr<const terrain::Database>> openDatabase(const Options& options);
 
 /// Returns the summary in one line for people.

@@ -94,8 +94,7 @@ void TerrainController::use(std::shared_ptr<const terrain::Database> database, c
   if (foreign)
     at_.messages.note(
         tr("Scene %1, drawn by OpenSceneGraph: LOD scale, allowed error, small features, far distance, "
-           "render "
-           "scale, particles and blur act on it; levels, cases of culling and hidden ground do not")
+           "render scale, particles and blur act on it; levels, cases of culling and hidden ground do not")
             .arg(QString::fromStdString(info.name)));
   else
     at_.messages.note(tr("Terrain %1: %L2 × %L3 posts, %L4 to %L5 m, %L6 voids filled")

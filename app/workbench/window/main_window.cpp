@@ -403,7 +403,8 @@ void MainWindow::welcome() {
   };
   Welcome::Group begin{
       tr("Begin"),
-      {{tr("The sample terrain"), tr("100 km of mountains, woods and a town, with the camera over them"), openSample},
+      {{tr("The sample terrain"), tr("100 km of mountains, woods and a town, with the camera over them"),
+        openSample},
        {tr("A host"), tr("listen to a flight simulator over UDP: workspace Connect"),
         [this] {
           workspaces_->show(int(workspaces_->names().indexOf(tr("Connect"))));

@@ -3,7 +3,6 @@
 #include <osg/Depth>
 #include <osg/Fog>
 #include <osg/GLObjects>
-#include <osg/Notify>
 #include <osgDB/DatabasePager>
 #include <osgUtil/CullVisitor>
 #include <osgUtil/SceneView>

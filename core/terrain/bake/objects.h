@@ -30,13 +30,14 @@ struct ObjectSources {
 PlacedModels placedOn(const std::filesystem::path& source,
                       const std::optional<std::filesystem::path>& sceneryModels, Findings& findings);
 
-/// Reads placements and models: of the list that the options name, and those that the sources bring. Returns none if there are no placements. A model that cannot be read is a warning. None at all is
-/// an error if a list was named, and so is more of them than `memory` bytes hold while they are placed.
+/// Reads placements and models: of the list that the options name, and those that the sources bring. Returns
+/// none if there are no placements. A model that cannot be read is a warning. None at all is an error if a
+/// list was named, and so is more of them than `memory` bytes hold while they are placed.
 Result<std::optional<ObjectSources>> readObjectSources(const BakeOptions& options, std::size_t memory);
 
-/// Makes levels of all models and puts them on the ground; nothing, with warnings, if nothing that sources bring can be
-/// placed: `patches`, the finished file of a database with
-/// the baked `heights`, says where it is drawn. Takes the models out of `sources`.
+/// Makes levels of all models and puts them on the ground; nothing, with warnings, if nothing that sources
+/// bring can be placed: `patches`, the finished file of a database with the baked `heights`, says where it is
+/// drawn. Takes the models out of `sources`.
 Result<ObjectTerrain> bakeObjects(ObjectSources& sources, const HeightSource& heights,
                                   const std::filesystem::path& patches, const LocalFrame& frame,
                                   const Progress& progress);

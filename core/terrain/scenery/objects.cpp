@@ -44,7 +44,10 @@ class ListReader {
     std::istringstream in(*text);
     for (std::string line; std::getline(in, line);) {
       ++line_;
-      if (line.size() > kMostLineBytes) continue;
+      if (line.size() > kMostLineBytes) {
+        leaveOut("line", "at most " + std::to_string(kMostLineBytes) + " bytes", std::to_string(line.size()));
+        continue;
+      }
       std::istringstream words(line.substr(0, line.find('#')));
       std::string verb;
       if (!(words >> verb) || verb == "OBJECT_BASE" || verb == "OBJECT") continue;
@@ -119,9 +122,11 @@ class ListReader {
     placement.heading = Degrees{std::remainder(90 - heading, 360.0)};
     placement.model = *model;
     placement.line = line_;
-    if (aboveGround)
+    if (elevation == kNoElevation)
+      placement.aboveGround = Metres{0};
+    else if (aboveGround)
       placement.aboveGround = Metres{elevation};
-    else if (elevation != kNoElevation)
+    else
       placement.height = Metres{elevation};
     objects_.list.placements.push_back(placement);
     ++(shared ? objects_.shared : objects_.own);

@@ -66,7 +66,7 @@ TEST_F(SceneryObjectsTest, areReadFromGoodLinesAndBadOnesAreNamed) {
       "OBJECT_STATIC house.ac 7.1 50.55 130 -30 # by the road\n"
       "OBJECT_STATIC_AGL house.ac 7.1 50.55 4 0\n"
       "OBJECT_SHARED_AGL Models/Power/mast.ac 7.1 50.55 0 0 10 20\n"
-      "OBJECT_STATIC house.ac 7.1 50.55 -9999.0 0\n"
+      "OBJECT_STATIC_AGL house.ac 7.1 50.55 -9999.0 0\n"
       "OBJECT_SIGN {@R}01-19 7.1 50.55 130 90 3\n"
       "BUILDING_LIST x.txt y 7.1 50.55 130\n"
       "OBJECT_SHARED Models/Power/gone.xml 7.1 50.55 130 30\n"
@@ -76,7 +76,8 @@ TEST_F(SceneryObjectsTest, areReadFromGoodLinesAndBadOnesAreNamed) {
       "OBJECT_STATIC house.ac 7.1 50.55 130\n"
       "OBJECT_STATIC house.ac 7.1 50.55 130 0 x\n"
       "OBJECT_STATIC ../house.ac 7.1 50.55 130 0\n"
-      "OBJECT_SHARED /etc/passwd 7.1 50.55 130 0\n");
+      "OBJECT_SHARED /etc/passwd 7.1 50.55 130 0\n" +
+      std::string(5000, ' ') + "OBJECT_STATIC house.ac 7.1 50.55 130 0\n");
   const terrain::SceneryObjects objects = read();
   ASSERT_EQ(objects.list.placements.size(), 6u);
   EXPECT_EQ(objects.shared, 3u);
@@ -88,11 +89,12 @@ TEST_F(SceneryObjectsTest, areReadFromGoodLinesAndBadOnesAreNamed) {
   EXPECT_FALSE(objects.list.placements[3].height);
   EXPECT_EQ(objects.list.placements[3].aboveGround, Metres{4});
   EXPECT_FALSE(objects.list.placements[5].height);
+  EXPECT_EQ(objects.list.placements[5].aboveGround, Metres{0});
   // The tilted mast is a model of its own.
   ASSERT_EQ(objects.models.size(), 4u);
   EXPECT_EQ(objects.models[3].pitch, Degrees{10});
   EXPECT_EQ(objects.models[3].roll, Degrees{20});
-  ASSERT_EQ(findings_.size(), 7u) << toString(findings_);
+  ASSERT_EQ(findings_.size(), 8u) << toString(findings_);
   for (std::size_t i = 0; i < findings_.size(); ++i)
     EXPECT_NE(findings_[i].where.find(".stg:" + std::to_string(11 + i)), std::string::npos)
         << toString(findings_);

@@ -43,8 +43,8 @@ struct BakeOptions {
   std::filesystem::path output;
   Progress progress;
 };
-/// Returns notes of what each CDB and each scenery among the sources holds to stand on the ground, and of what
-/// is not drawn of it. Reads tables and lists.
+/// Returns notes of what each CDB and each scenery among the sources holds to stand on the ground, and of
+/// what is not drawn of it. Reads tables and lists.
 Findings aboutSources(const std::vector<std::filesystem::path>& sources,
                       const std::optional<std::filesystem::path>& sceneryModels = {});
 

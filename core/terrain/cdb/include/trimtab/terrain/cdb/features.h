@@ -11,10 +11,10 @@ namespace trimtab::terrain {
 
 /// Where point features stand, and what they are drawn by.
 struct CdbFeatures : PlacedModels {
-  std::size_t specific = 0;  ///< features of one place (100) that are placed
-  std::size_t typical = 0;   ///< features of many places (101) that are placed
-  std::size_t replaced = 0;  ///< rows of coarser tables whose place has a finer one
-  std::size_t lights = 0;    ///< airport and other lights, which are not drawn
+  std::size_t specific = 0;                         ///< features of one place (100) that are placed
+  std::size_t typical = 0;                          ///< features of many places (101) that are placed
+  std::size_t replaced = 0;                         ///< rows of coarser tables whose place has a finer one
+  std::size_t lights = 0;                           ///< airport and other lights, which are not drawn
   std::map<std::string, std::size_t> withoutModel;  ///< features by the model that there is none of
 };
 

@@ -15,9 +15,9 @@ namespace trimtab::terrain {
 
 /// What stands on FlightGear scenery, from the lines of its lists (`.stg`).
 struct SceneryObjects : PlacedModels {
-  std::size_t shared = 0;  ///< placements of models of the base package
-  std::size_t own = 0;     ///< placements of models beside the lists
-  std::size_t signs = 0;   ///< OBJECT_SIGN and OBJECT_SIGN_AGL, which are not drawn
+  std::size_t shared = 0;                           ///< placements of models of the base package
+  std::size_t own = 0;                              ///< placements of models beside the lists
+  std::size_t signs = 0;                            ///< OBJECT_SIGN and OBJECT_SIGN_AGL, which are not drawn
   std::map<std::string, std::size_t> withoutModel;  ///< placements by the model that is not there
   std::map<std::string, std::size_t> others;        ///< lines by their first word, which are not read
 };
@@ -35,7 +35,8 @@ std::vector<std::filesystem::path> baseFolders(const std::optional<std::filesyst
 ///
 /// Source: FlightGear's Docs/README.scenery, sections 3.3 and 3.4: headings are anticlockwise. SimGear's
 /// ReaderWriterSTG and makeZUpFrame: at heading 0 a model's x points south, y east and z up; it is turned by
-/// roll about x, then by pitch about y, then by heading about z. A heading here is 90 degrees less FlightGear's.
+/// roll about x, then by pitch about y, then by heading about z. A heading here is 90 degrees less
+/// FlightGear's.
 SceneryObjects readSceneryObjects(const std::filesystem::path& source,
                                   std::span<const std::filesystem::path> baseFolders, Findings& findings);
 
