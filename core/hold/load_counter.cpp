@@ -118,6 +118,9 @@ void walkTrees(const StaticLodIndex& index, const std::vector<float>& error, con
   walk(index, view, Accepted(askedPx, rule.spread), steps, stack, ratio, draw);
 }
 
+/// The error that is accepted at the first step of ObjectLoad, metres.
+constexpr double kFirstAcceptedM = 0.01;
+
 /// The error that is asked for, where only step 0 counts and no other place is looked at.
 constexpr double kNoScale = 1;
 
@@ -199,7 +202,7 @@ ObjectLoad::ObjectLoad(std::shared_ptr<const ObjectIndex> index) : index_(std::m
       const ObjectIndex::Model& model = index_->models[instance.model];
       std::uint32_t level = 0;
       for (std::size_t step = 0; step < kSteps; ++step) {
-        const double accepted = kFirstM * std::exp2(0.5 * static_cast<double>(step)) / instance.scale;
+        const double accepted = kFirstAcceptedM * std::exp2(0.5 * static_cast<double>(step)) / instance.scale;
         while (level + 1 < model.levels && index_->levels[model.firstLevel + level + 1].errorM <= accepted)
           ++level;
         triangles_[number][step] += static_cast<float>(index_->levels[model.firstLevel + level].triangles);
@@ -208,9 +211,12 @@ ObjectLoad::ObjectLoad(std::shared_ptr<const ObjectIndex> index) : index_(std::m
   }
 }
 
-double ObjectLoad::triangles(std::uint32_t cell, double acceptedM) const {
-  const double step = 2 * std::log2(acceptedM / kFirstM);
-  return triangles_[cell][static_cast<std::size_t>(std::clamp(step, 0.0, double{kSteps - 1}))];
+double ObjectLoad::stepOf(double acceptedM) {
+  return 2 * std::log2(acceptedM / kFirstAcceptedM);
+}
+
+double ObjectLoad::triangles(std::uint32_t cell, double step) const {
+  return triangles_[cell][static_cast<std::size_t>(std::clamp(step, 0.0, kLastStep))];
 }
 
 TriangleLadder countTriangles(const ObjectLoad& load, const LoadView& view, const CutRule& rule,
@@ -218,7 +224,8 @@ TriangleLadder countTriangles(const ObjectLoad& load, const LoadView& view, cons
   const ObjectIndex& index = load.index();
   const Outside outside(view);
   const double toNext = placesToNext(askedPx), perDistance = std::sqrt(rule.limit());
-  TriangleLadder ladder{};
+  constexpr double kStepsPerPlace = 2 / double{kPlacesPerOctave};
+  Ladder ladder;
   for (std::uint32_t number = 0; number < index.cells.size();) {
     const ObjectIndex::Cell& cell = index.cells[number];
     const double away = std::sqrt(distanceSquared(cell.bounds, view.eye.position));
@@ -229,14 +236,23 @@ TriangleLadder countTriangles(const ObjectLoad& load, const LoadView& view, cons
     }
     if (cell.isLeaf(number)) {
       const double spread = std::sqrt(spreadSquared(away * away, 1 / rule.spread, rule.spreadFromM));
-      for (std::size_t k = 0; k < kErrorSteps; ++k) {
-        const double places = k == 0 ? 0 : toNext + static_cast<double>(k - 1);
-        ladder[k] += load.triangles(number, perDistance * spread * std::exp2(places / kPlacesPerOctave));
+      const double asked = ObjectLoad::stepOf(perDistance * spread);
+      ladder.add(0, 1, load.triangles(number, asked));
+      // Places that lie between the same two steps are added at once.
+      for (std::size_t k = 1; k < kErrorSteps;) {
+        const double step = asked + (toNext + static_cast<double>(k - 1)) * kStepsPerPlace;
+        std::size_t next = kErrorSteps;
+        if (step < ObjectLoad::kLastStep) {
+          const double places = std::ceil((std::floor(std::max(step, 0.0)) + 1 - step) / kStepsPerPlace);
+          if (places < static_cast<double>(kErrorSteps)) next = k + static_cast<std::size_t>(places);
+        }
+        ladder.add(k, std::min(next, kErrorSteps), load.triangles(number, step));
+        k = next;
       }
     }
     ++number;
   }
-  return ladder;
+  return ladder.sums();
 }
 
 double shareBelowHorizon(const LoadView& view, Vec3 up, double heightM) {

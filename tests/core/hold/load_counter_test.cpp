@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <random>
+#include <utility>
 
 #include "tests/core/culling/random_index.h"
 #include "tests/core/culling/random_patches.h"
 #include "tests/core/culling/random_trees.h"
 #include "tests/core/culling/view_axes.h"
+#include "trimtab/culling/box_distance.h"
+#include "trimtab/culling/frustum.h"
 #include "trimtab/culling/select.h"
 #include "trimtab/culling/select_patches.h"
 #include "trimtab/hold/arbiter.h"
@@ -155,6 +159,65 @@ TEST(LoadCounter, namesTheTilesThatItCounts) {
   });
   EXPECT_GT(all, 100u);
   EXPECT_GT(static_cast<double>(alike), 0.8 * static_cast<double>(all));
+}
+
+/// Two models in a row of cells below one root, as the reader of a database makes them.
+std::shared_ptr<const ObjectIndex> rowOfCells(std::size_t cells) {
+  auto index = std::make_shared<ObjectIndex>();
+  index->levels = {{0, 600, 0}, {0.05F, 240, 0}, {0.4F, 60, 0}, {2.5F, 4, 0}, {0, 90, 0}, {0.2F, 12, 0}};
+  index->models = {{0, 4, 3}, {4, 2, 2}};
+  const auto count = static_cast<std::uint32_t>(cells);
+  for (std::uint32_t i = 0; i <= count; ++i) {
+    ObjectIndex::Cell cell;
+    const float x = 900.0F * static_cast<float>(i), end = 900.0F * static_cast<float>(count) + 20;
+    cell.bounds = i == 0 ? Box{-10, -10, 0, end, 20, 10} : Box{x, -10, 0, x + 20, 10, 10};
+    cell.firstInstance = i == 0 ? 0 : 3 * (i - 1);
+    cell.instances = i == 0 ? 3 * count : 3;
+    cell.end = i == 0 ? count + 1 : i + 1;
+    cell.largestRadiusM = 4.5F;
+    index->cells.push_back(cell);
+    if (i == 0) continue;
+    for (const auto& [model, scale] : {std::pair{0U, 1.0F}, {0U, 1.5F}, {1U, 0.7F}})
+      index->instances.push_back({0, 0, 0, {0, 0, 0, 32767}, scale, model});
+  }
+  return index;
+}
+
+TEST(LoadCounter, objectsAreCountedByHalfOctavesOfWhatACellAccepts) {
+  const std::shared_ptr<const ObjectIndex> index = rowOfCells(12);
+  const ObjectLoad load(index);
+  // Looks along the row from before it, far enough to the side that some cells are outside the view.
+  const LoadView view = viewAt({-400, 60, 30}, 90, 0);
+  const CutRule rule{kAskedPx, 1.25, 11000};
+  FrameLevers levers;
+  levers.objectFarM = 9000;
+  const TriangleLadder ladder = countTriangles(load, view, rule, kAskedPx, levers);
+  const Frustum frustum(view.eye, view.view);
+  double most = 0;
+  for (std::size_t k = 0; k < kErrorSteps; ++k) {
+    double expected = 0;
+    for (std::uint32_t c = 1; c < index->cells.size(); ++c) {
+      const ObjectIndex::Cell& cell = index->cells[c];
+      const double away = std::sqrt(distanceSquared(cell.bounds, view.eye.position));
+      if (away > levers.objectFarM || !frustum.mayShow(cell.bounds)) continue;
+      // What is accepted, down to the half octave below it.
+      const double accepted = away * errorOf(k) * 1.25 / 11000;
+      double half = 0.01;
+      while (half * std::sqrt(2.0) <= accepted * (1 + 1e-9)) half *= std::sqrt(2.0);
+      for (std::uint32_t i = cell.firstInstance; i < cell.firstInstance + cell.instances; ++i) {
+        const ObjectInstance& instance = index->instances[i];
+        const ObjectIndex::Model& model = index->models[instance.model];
+        std::uint32_t level = model.firstLevel;
+        for (std::uint32_t l = model.firstLevel; l < model.firstLevel + model.levels; ++l)
+          if (index->levels[l].errorM * instance.scale <= half * (1 + 1e-6)) level = l;
+        expected += index->levels[level].triangles;
+      }
+    }
+    EXPECT_EQ(ladder[k], expected) << k;
+    most = std::max(most, expected);
+  }
+  EXPECT_GT(most, 1000);
+  EXPECT_LT(ladder.back(), most / 4) << "an octave coarser must be fewer";
 }
 
 TEST(LoadCounter, fallsAlongTheLadderAndOutsideTheView) {

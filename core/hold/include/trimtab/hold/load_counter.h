@@ -37,13 +37,16 @@ class ObjectLoad {
  public:
   explicit ObjectLoad(std::shared_ptr<const ObjectIndex> index);
   const ObjectIndex& index() const { return *index_; }
-  /// Returns the triangles that a cell without children draws where an error, metres, is accepted. It counts
-  /// in steps of half an octave.
-  double triangles(std::uint32_t cell, double acceptedM) const;
+  /// Returns where an accepted error, metres, lies among steps of half an octave, from 0.01 m on.
+  static double stepOf(double acceptedM);
+  /// Returns the triangles that a cell without children draws where the error at a step is accepted: all
+  /// between two whole steps are counted alike.
+  double triangles(std::uint32_t cell, double step) const;
+  /// From this step on every cell draws its fewest triangles.
+  static constexpr double kLastStep = 23;
 
  private:
-  static constexpr std::size_t kSteps = 24;  ///< from kFirstM on
-  static constexpr double kFirstM = 0.01;
+  static constexpr std::size_t kSteps = static_cast<std::size_t>(kLastStep) + 1;
   std::shared_ptr<const ObjectIndex> index_;
   std::vector<std::array<float, kSteps>> triangles_;  ///< one row per cell, empty for cells with children
 };
