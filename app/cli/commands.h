@@ -25,6 +25,7 @@ void addBench(CLI::App& app, int& exitCode);
 void addResults(CLI::App& app, int& exitCode);
 void addExperiment(CLI::App& app, int& exitCode);
 void addLeverage(CLI::App& app, int& exitCode);
+void addTune(CLI::App& app, int& exitCode);
 void addWeather(CLI::App& app, int& exitCode);
 
 /// Prints findings on standard error, one per line, with their severity.

@@ -34,6 +34,19 @@ bool parseSize(const std::string& text, int& width, int& height) {
          width <= 16384 && height <= 16384;
 }
 
+bool parsePart(const std::string& text, std::optional<harness::Plan::Part>& part) {
+  unsigned number = 0, count = 0;
+  char after = 0;
+  if (std::sscanf(text.c_str(), "%u/%u%c", &number, &count, &after) != 2 || number < 1 || number > count)
+    return false;
+  part = harness::Plan::Part{number - 1, count};
+  return true;
+}
+
+Finding refusedPart(const std::string& text) {
+  return {Severity::error, "--part", "", "I/N with I from 1 to N, such as 2/8", text};
+}
+
 std::optional<ValidatedParameters> parametersFor(const std::string& name,
                                                  const std::vector<std::string>& settings) {
   const Result<Preset> preset = loadPreset(name);

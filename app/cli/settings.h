@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/harness/run.h"
 #include "trimtab/preset/table.h"
 
 namespace trimtab::cli {
@@ -18,5 +19,9 @@ std::optional<ValidatedParameters> parametersFor(const std::string& preset,
 
 /// Reads a size in pixels such as "1280x720". Returns false unless both sides are 16 to 16384.
 bool parseSize(const std::string& text, int& width, int& height);
+
+/// Reads a share of work such as "2/8". Returns false unless it is the first to the last of its number.
+bool parsePart(const std::string& text, std::optional<harness::Plan::Part>& part);
+Finding refusedPart(const std::string& text);
 
 }  // namespace trimtab::cli

@@ -92,6 +92,7 @@ class Run {
   Clock::time_point start_ = Clock::now();
   std::string doing_;
   bool cancelled_ = false;
+  bool missing_ = false;  ///< frames of other parts are not there yet
   MachineWatch watch_;
 };
 
@@ -233,6 +234,10 @@ Findings Run::measureFlight(std::size_t flight, Results& results) {
     const bool whole =
         part && part->size() == units.size() &&
         std::all_of(part->begin(), part->end(), [](const Unit& u) { return u.frames.size() == 1; });
+    if (!whole && plan_.part && i % plan_.part->count != plan_.part->index) {
+      missing_ = true;
+      continue;
+    }
     if (!whole) {
       if (!fly(flight, runners)) return {stopped()};
       doing_ = doing;
@@ -252,6 +257,7 @@ Findings Run::measureFlight(std::size_t flight, Results& results) {
     finished(drawsOfFrame(), !whole);
     if (!goOn()) return {stopped()};
   }
+  if (missing_) return {};
   if (Findings failed = keepWorst(flight, runners, results.units.size(), units); !failed.empty())
     return failed;
   if (plan_.skips)
@@ -321,6 +327,7 @@ Result<Results> Run::all() {
     work_ += imagesOf(flight, runnersOf(plan_.flights[flight]));
   for (std::size_t flight = 0; flight < plan_.flights.size(); ++flight)
     if (failed = measureFlight(flight, results); !failed.empty()) return failed;
+  if (missing_) return Results{};
   // Images of what the terrain did not hold are no measurement.
   if (failed = plan_.terrain->damage(); !failed.empty()) return failed;
   Findings unknown;

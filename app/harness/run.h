@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,13 @@ struct Plan {
   std::size_t worst = 3;  ///< most worst frames kept of each unit
   bool skips = true;      ///< whether to measure what skipped work saved
   std::string version;    ///< of the program
+  /// One of several processes or machines that share the folder: of the sampled frames it measures those
+  /// whose number leaves `index` when divided by `count`. While frames of other parts are missing, run()
+  /// returns results without units and writes none; the last part joins them, or a run without a part.
+  struct Part {
+    std::size_t index = 0, count = 1;
+  };
+  std::optional<Part> part;
   /// Called often; returning false cancels the run. Finished parts stay in the folder.
   std::function<bool(double fraction, const std::string& what)> progress;
 };

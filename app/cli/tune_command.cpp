@@ -1,0 +1,137 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/link/log_options.h"
+#include "app/tune/tune.h"
+#include "commands.h"
+#include "open_terrain.h"
+#include "progress.h"
+#include "settings.h"
+#include "trimtab/scene/osg_database.h"
+
+namespace trimtab::cli {
+namespace {
+
+struct TuneOptions {
+  std::string terrain, origin, output, columns, preset = "default", size = "1280x720", part, time = "p95";
+  std::vector<std::string> flights, heldOut, free, settings;
+  double budgetMs = 0, maxError = 0;
+  tune::Plan plan;
+  bool json = false;
+};
+
+bool readFlights(const TuneOptions& arguments, const std::vector<std::string>& files,
+                 std::vector<harness::Plan::NamedFlight>& flights) {
+  bool usable = true;
+  for (const std::string& file : files) {
+    Result<Flight> flight = link::openFlightOption(file, arguments.columns);
+    report(flight.findings());
+    usable = usable && flight;
+    if (flight) flights.push_back({std::filesystem::path(file).stem().string(), std::move(flight).value()});
+  }
+  return usable;
+}
+
+int run(const TuneOptions& arguments) {
+  tune::Plan plan = arguments.plan;
+  plan.version = TRIMTAB_VERSION;
+  plan.progress = progressLines();
+  plan.free = arguments.free;
+  plan.startName = std::filesystem::path(arguments.preset).stem().string();
+  if (arguments.budgetMs > 0) plan.budgetMs = arguments.budgetMs;
+  if (arguments.maxError > 0) plan.maxError = arguments.maxError;
+  plan.time = arguments.time == "median" ? tune::TimeMeasure::median
+              : arguments.time == "p99"  ? tune::TimeMeasure::p99
+                                         : tune::TimeMeasure::p95;
+  Findings faults;
+  if (!parseSize(arguments.size, plan.widthPx, plan.heightPx))
+    faults.push_back({Severity::error, "--size", "", "WIDTHxHEIGHT, each 16 to 16384 px", arguments.size});
+  if (!arguments.part.empty() && !parsePart(arguments.part, plan.part))
+    faults.push_back(refusedPart(arguments.part));
+  report(faults);
+  const std::optional<ValidatedParameters> start = parametersFor(arguments.preset, arguments.settings);
+  bool usable = readFlights(arguments, arguments.flights, plan.flights);
+  usable = readFlights(arguments, arguments.heldOut, plan.heldOut) && usable && faults.empty() && start;
+  if (!usable) return kRefused;
+  plan.start = *start;
+  plan.terrain = openTerrain(arguments.terrain, arguments.origin, plan.progress);
+  if (!plan.terrain) return kRefused;
+  plan.terrainName = plan.terrain->info().name;
+  const Result<tune::Outcome> outcome = tune::run(plan, arguments.output);
+  report(outcome.findings());
+  if (!outcome) return kRefused;
+  if (plan.part) {
+    for (const std::string& note : outcome->notes) std::cout << note << '\n';
+  } else {
+    const experiment::Report report = tune::toReport(plan, *outcome);
+    std::cout << (arguments.json ? experiment::toJson(report) : experiment::toText(report));
+  }
+  return std::cout.flush() ? kDone : kRefused;
+}
+
+}  // namespace
+
+void addTune(CLI::App& app, int& exitCode) {
+  auto arguments = std::make_shared<TuneOptions>();
+  tune::Plan& plan = arguments->plan;
+  CLI::App* command = app.add_subcommand("tune", "Search for presets: run time against error over flights");
+  command->footer(
+      "The folder gets the found presets, a page with the front, and every finished part of the work. A run "
+      "that was stopped goes on where it was when the same command is given again. Several machines share a "
+      "folder with --part 1/8 to 8/8, once for each step that the command names; without --part the command "
+      "joins what they did.");
+  command->add_option("--terrain", arguments->terrain, "Database, or elevation to bake")->required();
+  command->add_option("--origin", arguments->origin, scene::kOriginHelp);
+  command->add_option("--flight", arguments->flights, "Flights (CSV, trace or capture) that the search sees")
+      ->required();
+  command->add_option("--hold-out", arguments->heldOut,
+                      "Flights that the search does not see, on which what it found is proven");
+  command->add_option("--columns", arguments->columns, link::kColumnsHelp);
+  command->add_option("--preset", arguments->preset, "Preset or export to start from")->capture_default_str();
+  command->add_option("--set", arguments->settings, "KEY=VALUE on top of the preset; may be repeated");
+  command
+      ->add_option(
+          "--free", arguments->free,
+          "What may move: KEY, GROUP.* or KEY=LOW..HIGH; policy.terms and policy.rules free the numbers "
+          "of the preset's policy")
+      ->required();
+  CLI::Option* budget =
+      command->add_option("--budget-ms", arguments->budgetMs, "Longest time of a flight's images, ms")
+          ->check(CLI::PositiveNumber);
+  command->add_option("--max-error", arguments->maxError, "Greatest mean FLIP, 0 to 1")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->excludes(budget);
+  command->add_option("--time", arguments->time, "The time that is made small: median, p95 or p99")
+      ->check(CLI::IsMember({"median", "p95", "p99"}))
+      ->capture_default_str();
+  command->add_option("--size", arguments->size, "Render size")->capture_default_str();
+  command->add_option("--points", plan.points, "Found presets to draw")
+      ->check(CLI::Range(1, 6))
+      ->capture_default_str();
+  command->add_option("--frames", plan.frames, "Frames of each flight to draw, evenly spread")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--repeats", plan.repeats, "Timed draws of each frame")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--samples", plan.drawnRows, "Rows of a flight that estimates are made from")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--evaluations", plan.evaluations, "Estimates of each search")
+      ->check(CLI::Range(100, 100000000))
+      ->capture_default_str();
+  command->add_option("--searches", plan.searches, "Searches, each with a seed of its own")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--seed", plan.seed, "Seed of the first search")->capture_default_str();
+  command->add_option("--part", arguments->part, "I/N: does only this share of the next step");
+  command->add_flag("--json", arguments->json, "One JSON document on standard output");
+  command->add_option("-o,--output", arguments->output, "Folder for the results")->required();
+  stopWhenAsked(*command);
+  command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
+}
+
+}  // namespace trimtab::cli

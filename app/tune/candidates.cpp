@@ -1,0 +1,125 @@
+#include "candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace trimtab::tune {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+double timeOf(const Estimate& estimate, TimeMeasure time) {
+  return time == TimeMeasure::median ? estimate.medianMs
+         : time == TimeMeasure::p95  ? estimate.p95Ms
+                                     : estimate.p99Ms;
+}
+
+/// Returns the member of a front, which is ordered by time, that comes nearest to a limit from inside; the
+/// nearest outside if there is none.
+std::size_t within(std::span<const Candidate> front, std::size_t objective, double limit) {
+  const auto inside = [&](const Candidate& c) { return c.objectives[objective] <= limit; };
+  if (objective == 0) {
+    const auto after = std::find_if_not(front.begin(), front.end(), inside);
+    return after == front.begin() ? 0 : static_cast<std::size_t>(after - front.begin()) - 1;
+  }
+  const auto first = std::find_if(front.begin(), front.end(), inside);
+  return first == front.end() ? front.size() - 1 : static_cast<std::size_t>(first - front.begin());
+}
+
+}  // namespace
+
+Objectives Judge::of(const ValidatedParameters& parameters) const {
+  Objectives objectives{0, 0};
+  for (const FlightModel& model : models_) {
+    const Estimate estimate = model.estimate(parameters);
+    objectives[0] = std::max(objectives[0], timeOf(estimate, plan_.time));
+    objectives[1] += estimate.flip / static_cast<double>(models_.size());
+  }
+  return objectives;
+}
+
+Objectives Judge::operator()(std::span<const double> place) const {
+  const Result<ValidatedParameters> valid = validate(space_.at(place));
+  if (!valid) return {kInfinite, kInfinite};
+  return of(*valid);
+}
+
+double Judge::merit(const Objectives& objectives, double stretch) const {
+  const std::size_t limited = plan_.maxError ? 1 : 0;
+  const double limit = stretch * (plan_.maxError ? *plan_.maxError : plan_.budgetMs.value_or(kInfinite));
+  const double over = objectives[limited] / limit;
+  // FLIP is at most 1, and no image takes an hour.
+  constexpr double kFar = 1e7;
+  return over > 1 ? kFar * over : objectives[1 - limited];
+}
+
+std::vector<Candidate> chosen(const Plan& plan, std::span<const Candidate> front, std::size_t count,
+                              double stretch) {
+  std::vector<std::size_t> numbers;
+  if (front.empty()) return {};
+  const std::size_t limited = plan.maxError ? 1 : 0;
+  const std::optional<double> limit = plan.maxError ? plan.maxError : plan.budgetMs;
+  if (limit) {
+    // Estimates miss by some per cent, so presets on both sides of the limit are drawn, more inside it.
+    constexpr double kAt[] = {0.97, 0.9, 0.8, 1.05, 0.65, 0.5};
+    for (const double part : kAt)
+      if (numbers.size() < count) numbers.push_back(within(front, limited, *limit * stretch * part));
+  } else {
+    for (std::size_t k = 0; k < count; ++k)
+      numbers.push_back(count == 1 ? front.size() / 2 : k * (front.size() - 1) / (count - 1));
+  }
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  std::vector<Candidate> presets;
+  for (const std::size_t number : numbers) presets.push_back(front[number]);
+  return presets;
+}
+
+Candidate simplified(const Judge& judge, std::span<const double> start, Candidate candidate) {
+  // A number that moves neither time nor error by so much is not worth moving.
+  constexpr double kPart = 0.002, kFlip = 1e-5;
+  for (std::size_t i = 0; i < candidate.place.size(); ++i) {
+    if (candidate.place[i] == start[i]) continue;
+    std::vector<double> without = candidate.place;
+    without[i] = start[i];
+    const Objectives objectives = judge(without);
+    if (objectives[0] <= candidate.objectives[0] * (1 + kPart) &&
+        objectives[1] <= candidate.objectives[1] * (1 + kPart) + kFlip) {
+      candidate.place = std::move(without);
+      candidate.objectives = objectives;
+    }
+  }
+  return candidate;
+}
+
+Candidate bestSingle(const Judge& judge, std::span<const double> start) {
+  constexpr int kValues = 33;
+  Candidate best{{start.begin(), start.end()}, judge(start)};
+  for (std::size_t i = 0; i < start.size(); ++i)
+    for (int value = 0; value < kValues; ++value) {
+      std::vector<double> place(start.begin(), start.end());
+      place[i] = value / static_cast<double>(kValues - 1);
+      const Objectives objectives = judge(place);
+      if (judge.merit(objectives, 1) < judge.merit(best.objectives, 1)) best = {std::move(place), objectives};
+    }
+  return best;
+}
+
+Candidate bestRandom(const Judge& judge, std::size_t axes, std::uint64_t seed) {
+  constexpr int kPlaces = 200;
+  std::mt19937_64 random(seed);
+  Candidate best;
+  for (int i = 0; i < kPlaces; ++i) {
+    std::vector<double> place(axes);
+    // The distributions of the standard library differ from one to the next; this does not.
+    for (double& at : place) at = static_cast<double>(random() >> 11) * 0x1p-53;
+    const Objectives objectives = judge(place);
+    if (best.place.empty() || judge.merit(objectives, 1) < judge.merit(best.objectives, 1))
+      best = {std::move(place), objectives};
+  }
+  return best;
+}
+
+}  // namespace trimtab::tune

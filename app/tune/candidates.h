@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "flight_model.h"
+#include "search.h"
+#include "search_space.h"
+#include "tune.h"
+
+/// Chooses presets by their estimates.
+namespace trimtab::tune {
+
+/// Judges presets over several flights by estimates.
+class Judge {
+ public:
+  Judge(const Plan& plan, const SearchSpace& space, std::span<const FlightModel> models)
+      : plan_(plan), space_(space), models_(models) {}
+
+  /// Returns the time of the flight that takes longest, milliseconds, and the mean FLIP of all; infinite if
+  /// the preset breaks a rule.
+  Objectives operator()(std::span<const double> place) const;
+  Objectives of(const ValidatedParameters& parameters) const;
+  /// Orders what was judged by what the plan asks for: least error within the budget, least time within the
+  /// error. What breaks the limit is worse than all that does not. `stretch` multiplies the limit.
+  double merit(const Objectives& objectives, double stretch) const;
+
+ private:
+  const Plan& plan_;
+  const SearchSpace& space_;
+  std::span<const FlightModel> models_;
+};
+
+/// Returns presets along a front to draw, at most `count`: around what the plan asks for, or without a limit
+/// evenly along the front. `stretch` multiplies the limit.
+std::vector<Candidate> chosen(const Plan& plan, std::span<const Candidate> front, std::size_t count,
+                              double stretch);
+
+/// Puts back to the start each number of a place whose moving wins nothing by the estimate.
+Candidate simplified(const Judge& judge, std::span<const double> start, Candidate candidate);
+
+/// Returns the best place by merit of those that differ from the start in one axis, and of 200 random ones.
+Candidate bestSingle(const Judge& judge, std::span<const double> start);
+Candidate bestRandom(const Judge& judge, std::size_t axes, std::uint64_t seed);
+
+}  // namespace trimtab::tune

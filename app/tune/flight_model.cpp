@@ -1,0 +1,390 @@
+#include "flight_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cost_fit.h"
+#include "trimtab/decision/decide.h"
+#include "trimtab/hold/arbiter.h"
+#include "trimtab/hold/frame_hold.h"
+#include "trimtab/scene/data_extent.h"
+#include "trimtab/scene/load_index.h"
+#include "trimtab/session/session.h"
+
+namespace trimtab::tune {
+namespace {
+
+/// The ladder that is counted of each row: from half a pixel over seven octaves.
+constexpr double kLeastPx = 0.5;
+constexpr std::size_t kCounted = 7 * kPlacesPerOctave + 1;
+using Counted = std::array<float, kCounted>;
+
+/// Returns what a ladder says at an allowed error, pixels.
+double countAt(const Counted& counted, double errorPx) {
+  const double place = std::clamp(double{kPlacesPerOctave} * std::log2(errorPx / kLeastPx), 0.0,
+                                  static_cast<double>(kCounted - 1));
+  const auto at = std::min(static_cast<std::size_t>(place), kCounted - 2);
+  return std::lerp(static_cast<double>(counted[at]), static_cast<double>(counted[at + 1]),
+                   place - static_cast<double>(at));
+}
+
+using Steps = std::array<float, kLossSteps>;
+
+/// Returns what the steps of a loss say at a value: on straight lines between the values that were drawn,
+/// over the logarithm of errors and distances. Finer than the first lies `rest`, which is what the steps say
+/// of a lever at rest.
+double stepAt(const Steps& steps, Loss loss, double value, double rest) {
+  const auto& values = kLossValues[static_cast<std::size_t>(loss)];
+  double place = 0;  // -1 is at rest
+  switch (loss) {
+    case Loss::ground_error:
+    case Loss::object_error:
+      place = std::log2(value);
+      break;
+    case Loss::small_feature:
+      place = value < 1 ? value - 1 : std::log2(value);
+      break;
+    case Loss::object_distance:
+      place = std::log2(values[0] / value);
+      break;
+    default: {
+      std::size_t step = 0;
+      while (step + 1 < kLossSteps && values[step + 1] > value) ++step;
+      if (value >= values[0])
+        place = values[0] < 1 ? -(value - values[0]) / (1 - values[0]) : 0;
+      else if (step + 1 < kLossSteps && values[step] > values[step + 1])
+        place = static_cast<double>(step) + (values[step] - value) / (values[step] - values[step + 1]);
+      else
+        place = kLossSteps - 1;
+    }
+  }
+  place = std::clamp(place, -1.0, static_cast<double>(kLossSteps - 1));
+  if (place < 0) return std::lerp(static_cast<double>(steps[0]), rest, -place);
+  const auto at = std::min(static_cast<std::size_t>(place), kLossSteps - 2);
+  return std::lerp(static_cast<double>(steps[at]), static_cast<double>(steps[at + 1]),
+                   place - static_cast<double>(at));
+}
+
+/// What is known of a row.
+struct Row {
+  std::size_t row = 0;  ///< of the flight
+  AircraftState state;
+  std::optional<Metres> ground;  ///< height of the ground below
+  bool over = false;             ///< lies above the terrain, so that its image counts
+  double groundMpx = 0, imageMpx = 0;
+  Counted tiles{}, objects{};            ///< triangles of the ground and of objects
+  Counted tilesAhead{}, objectsAhead{};  ///< the most of this row and of those that a budget looks ahead to
+  // From the drawn rows before and after it.
+  double drawnHidden = 1, drawnOpen = 1;
+  double costs = 1;  ///< over the fitted cost
+  std::array<Steps, kLosses> flip{};
+  Steps smallKept{}, objectsKept{}, airKept{}, smallInstances{}, farInstances{};
+  double instances = 0;
+};
+
+/// Knows the ground below the row in hand, which is all that a decision asks for.
+class GroundOfRow final : public GroundHeights {
+ public:
+  explicit GroundOfRow(std::optional<Metres> highest) : highest_(highest) {}
+  void set(const Row& row) { row_ = &row; }
+  std::optional<Metres> heightAt(Degrees, Degrees) const override {
+    return row_ ? row_->ground : std::nullopt;
+  }
+  std::optional<Metres> highest() const override { return highest_; }
+
+ private:
+  std::optional<Metres> highest_;
+  const Row* row_ = nullptr;
+};
+
+/// Returns the start without whatever moves a lever.
+ValidatedParameters plain(const ValidatedParameters& start) {
+  TuningParameters p = *start;
+  p.policy.enabled = p.hold.enabled = false;
+  p.motion.control = MotionControl::off;
+  p.lod.scale = Ratio{1};
+  const Result<ValidatedParameters> valid = validate(p);
+  return valid ? *valid : start;
+}
+
+/// Counts a request's triangles over the ladder, and the ground's pixels.
+class Counter {
+ public:
+  explicit Counter(const std::shared_ptr<const terrain::Database>& terrain) {
+    hold_.setIndex(scene::loadIndexOf(terrain));
+  }
+  void count(const FrameRequest& request, Row& row) {
+    for (const double from : {kLeastPx, 16 * kLeastPx}) {
+      const HoldGiven all = look(request, from, WeatherDecision::kUnlimited);
+      const HoldGiven ground = look(request, from, -1);  // no object is so near
+      const std::size_t first = from == kLeastPx ? 0 : 4 * kPlacesPerOctave;
+      for (std::size_t k = 0; k < kErrorSteps && first + k < kCounted; ++k) {
+        row.tiles[first + k] = static_cast<float>(ground.triangles[k]);
+        row.objects[first + k] = static_cast<float>(all.triangles[k] - ground.triangles[k]);
+      }
+      row.groundMpx = all.groundMpx;
+      row.imageMpx = all.imageMpx;
+    }
+  }
+
+ private:
+  HoldGiven look(FrameRequest request, double errorPx, double objectFarM) {
+    FrameLevers& levers = request.levers.policy;
+    levers.errorPx = levers.objectErrorPx = errorPx;
+    levers.lodScale = 1;
+    levers.smallFeaturePx = 0;
+    levers.objectFarM = objectFarM;
+    request.levers.drawn = levers;
+    return hold_.look(request, {}, 0);
+  }
+  FrameHold hold_;
+};
+
+template <class Array>
+void mostOf(Array& most, const Array& other) {
+  for (std::size_t i = 0; i < most.size(); ++i) most[i] = std::max(most[i], other[i]);
+}
+
+/// Returns the nearest rank, whatever the number of samples.
+double rankOf(std::vector<double>& samples, double fraction) {
+  const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(samples.size())));
+  const auto at =
+      samples.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, samples.size()) - 1);
+  std::nth_element(samples.begin(), at, samples.end());
+  return *at;
+}
+
+/// Returns the part of the way from one drawn row to the next, and their numbers.
+struct Between {
+  std::size_t before = 0, after = 0;
+  double part = 0;
+};
+Between betweenOf(const std::vector<DrawnRow>& drawn, std::size_t row) {
+  const auto after = std::lower_bound(drawn.begin(), drawn.end(), row,
+                                      [](const DrawnRow& d, std::size_t r) { return d.row < r; });
+  const auto at = static_cast<std::size_t>(after - drawn.begin());
+  if (at == drawn.size()) return {at - 1, at - 1, 0};
+  if (at == 0 || drawn[at].row == row) return {at, at, 0};
+  const double from = static_cast<double>(drawn[at - 1].row), to = static_cast<double>(drawn[at].row);
+  return {at - 1, at, (static_cast<double>(row) - from) / (to - from)};
+}
+
+}  // namespace
+
+struct FlightModel::Impl {
+  std::vector<Row> rows;
+  std::vector<SampleRow> toDraw;
+  std::optional<Metres> highest;
+  FittedCost cost;
+  Fit fit;
+
+  struct Image {
+    double ms = 0, triangles = 0, flip = 0;
+  };
+  Image imageOf(const Row& row, const FrameLevers& levers, const FrameDecision& decision) const;
+  HeldLevers hold(const Row& row, const FrameLevers& asked, const FrameDecision& decision,
+                  const TuningParameters& parameters, HoldMemory& memory) const;
+  static double particlesOf(const FrameDecision& decision) {
+    return decision.weather.precipitation == Precipitation::none ? 0 : decision.weather.density;
+  }
+};
+
+/// Returns what an image under these levers takes and loses.
+FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameLevers& levers,
+                                                    const FrameDecision& decision) const {
+  Image image;
+  const double groundPx = levers.errorPx * levers.lodScale, objectPx = levers.objectErrorPx * levers.lodScale;
+  const auto lose = [&](Loss loss, double value) {
+    image.flip += stepAt(row.flip[static_cast<std::size_t>(loss)], loss, value, 0);
+  };
+  double objects = countAt(row.objects, objectPx), instances = row.instances;
+  lose(Loss::ground_error, groundPx);
+  if (objects > 0) {
+    objects *= stepAt(row.smallKept, Loss::small_feature, levers.smallFeaturePx, 1) *
+               stepAt(row.objectsKept, Loss::object_distance, levers.objectFarM, 1);
+    instances *= stepAt(row.smallInstances, Loss::small_feature, levers.smallFeaturePx, 1) *
+                 stepAt(row.farInstances, Loss::object_distance, levers.objectFarM, 1);
+    lose(Loss::object_error, objectPx);
+    lose(Loss::small_feature, levers.smallFeaturePx);
+    lose(Loss::object_distance, levers.objectFarM);
+  }
+  if (levers.renderScale < 1) lose(Loss::render_scale, levers.renderScale);
+  image.triangles = countAt(row.tiles, groundPx) + objects;
+  image.triangles *= levers.occlusion ? row.drawnHidden : row.drawnOpen;
+  if (std::isfinite(levers.farM)) {
+    const double part = levers.farM / decision.weather.farM;
+    image.triangles *= stepAt(row.airKept, Loss::far_distance, part, 1);
+    lose(Loss::far_distance, part);
+  }
+  const double particles = particlesOf(decision) * levers.particleShare;
+  if (levers.particleShare < 1 && particlesOf(decision) > 0) lose(Loss::particles, levers.particleShare);
+  const double area = levers.renderScale * levers.renderScale;
+  const FrameLoad load{image.triangles, row.groundMpx * area, row.imageMpx * area, particles, false};
+  image.ms = cost(load, instances, levers.occlusion.has_value()) * row.costs;
+  image.flip = std::min(image.flip, 1.0);
+  return image;
+}
+
+/// Returns the levers to which the arbiter of the budget lowers a row's image.
+HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, const FrameDecision& decision,
+                                   const TuningParameters& parameters, HoldMemory& memory) const {
+  HoldGiven given;
+  given.timeS = row.state.time;
+  given.budgetMs = parameters.measure.budget.value();
+  given.asked = {asked.errorPx, asked.renderScale, asked.particleShare, 1};
+  given.particles = particlesOf(decision) * asked.particleShare;
+  given.imageMpx = row.imageMpx;
+  given.groundMpx = row.groundMpx;
+  const double drawn = asked.occlusion ? row.drawnHidden : row.drawnOpen;
+  const double toNext = placesToNext(asked.errorPx);
+  for (std::size_t k = 0; k < kErrorSteps; ++k) {
+    const double places = k == 0 ? 0 : toNext + static_cast<double>(k - 1);
+    const double coarser = asked.lodScale * std::exp2(places / kPlacesPerOctave);
+    given.triangles[k] = drawn * (countAt(row.tilesAhead, asked.errorPx * coarser) +
+                                  countAt(row.objectsAhead, asked.objectErrorPx * coarser));
+  }
+  static_cast<ClockCoefficients&>(given.cost) = cost.coefficients;
+  // The arbiter knows no instances: what they cost does not follow its levers.
+  given.cost.other += (asked.occlusion ? cost.lookingMs : 0) + cost.perInstance * row.instances;
+  for (double ClockCoefficients::*part :
+       {&ClockCoefficients::fixed, &ClockCoefficients::perTriangle, &ClockCoefficients::perGroundMpx,
+        &ClockCoefficients::perParticles, &ClockCoefficients::perWeatherMpx, &ClockCoefficients::other})
+    given.cost.*part *= row.costs;
+  given.cost.known = true;
+  const double ms = predict(given.cost, loadOf(given, given.asked, given.triangles[0])).total();
+  given.cost.halfBandMs = fit.p95 * ms;
+  given.cost.offMs = fit.median * ms;
+  return arbitrate(given, parameters.hold, memory).held;
+}
+
+FlightModel::FlightModel(const Scene& scene, const Flight& flight, const ValidatedParameters& start,
+                         std::size_t drawn)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->highest = scene.terrain->highest();
+  const ValidatedParameters parameters = plain(start);
+  Session session(parameters);
+  session.setGround(scene.terrain);
+  Counter counter(scene.terrain);
+  const std::size_t count = std::min(flight.states.size(), kMostRows);
+  std::vector<FrameRequest> requests;
+  for (std::size_t i = 0; i < count; ++i) {
+    Row row;
+    row.row = i * flight.states.size() / count;
+    const AircraftState& state = flight.states[row.row];
+    session.fly(state, state.time);
+    row.state = session.input().state;
+    row.ground = scene.terrain->heightAt(state.position.latitude, state.position.longitude);
+    row.over = scene::liesOver(scene.terrain->info(), state.position);
+    // Only a session without a state has none.
+    requests.push_back(*session.request(state.time, scene.widthPx, scene.heightPx));
+    if (row.over) counter.count(requests.back(), row);
+    impl_->rows.push_back(std::move(row));
+  }
+  std::vector<Row>& rows = impl_->rows;
+  const auto ahead = static_cast<std::size_t>(start->hold.lookAhead.value());
+  std::vector<std::size_t> over;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].over) over.push_back(i);
+    rows[i].tilesAhead = rows[i].tiles;
+    rows[i].objectsAhead = rows[i].objects;
+    for (std::size_t j = i + 1; j < rows.size() && j <= i + ahead; ++j) {
+      mostOf(rows[i].tilesAhead, rows[j].tiles);
+      mostOf(rows[i].objectsAhead, rows[j].objects);
+    }
+  }
+  const std::size_t samples = std::min(drawn, over.size());
+  for (std::size_t k = 0; k < samples; ++k) {
+    const std::size_t i = over[(2 * k + 1) * over.size() / (2 * samples)];
+    SampleRow sample{rows[i].row, requests[i], std::nullopt, rows[i].groundMpx, {}};
+    if (i > 0) sample.before = requests[i - 1];
+    sample.counted = [tiles = rows[i].tiles, objects = rows[i].objects](double groundPx, double objectPx) {
+      return countAt(tiles, groundPx) + countAt(objects, objectPx);
+    };
+    impl_->toDraw.push_back(std::move(sample));
+  }
+}
+
+FlightModel::~FlightModel() = default;
+FlightModel::FlightModel(FlightModel&&) noexcept = default;
+
+const std::vector<SampleRow>& FlightModel::toDraw() const {
+  return impl_->toDraw;
+}
+
+std::size_t FlightModel::rows() const {
+  return impl_->rows.size();
+}
+
+FlightModel::Fit FlightModel::fit() const {
+  return impl_->fit;
+}
+
+double FlightModel::emptyMs() const {
+  double most = 0;
+  for (const Row& row : impl_->rows) most = std::max(most, impl_->cost({}, 0, false) * row.costs);
+  return most;
+}
+
+void FlightModel::learn(const DrawnSamples& samples) {
+  impl_->cost = fitCost(samples.images);
+  // What a row costs more or less than the fit, as with clouds of small objects, is the row's own.
+  std::vector<double> costs(samples.rows.size(), 1.0), off;
+  for (std::size_t r = 0; r < samples.rows.size(); ++r) {
+    std::vector<double> ratios;
+    for (const TimedImage& image : samples.images)
+      if (image.row == samples.rows[r].row)
+        ratios.push_back(image.ms / impl_->cost(image.load, image.instances, image.looksForHidden));
+    if (ratios.empty()) continue;
+    costs[r] = rankOf(ratios, 0.5);
+    for (const double ratio : ratios) off.push_back(std::abs(ratio / costs[r] - 1));
+  }
+  if (!off.empty()) impl_->fit = {rankOf(off, 0.5), rankOf(off, 0.95)};
+  const auto mix = [](const auto& a, const auto& b, double part, Steps& into) {
+    for (std::size_t s = 0; s < kLossSteps; ++s) into[s] = static_cast<float>(std::lerp(a[s], b[s], part));
+  };
+  for (Row& row : impl_->rows) {
+    if (samples.rows.empty()) break;
+    const Between at = betweenOf(samples.rows, row.row);
+    const DrawnRow &a = samples.rows[at.before], &b = samples.rows[at.after];
+    row.costs = std::lerp(costs[at.before], costs[at.after], at.part);
+    row.drawnHidden = std::lerp(a.drawnHidden, b.drawnHidden, at.part);
+    row.drawnOpen = std::lerp(a.drawnOpen, b.drawnOpen, at.part);
+    for (std::size_t l = 0; l < kLosses; ++l) mix(a.flip[l], b.flip[l], at.part, row.flip[l]);
+    mix(a.smallKept, b.smallKept, at.part, row.smallKept);
+    mix(a.objectsKept, b.objectsKept, at.part, row.objectsKept);
+    mix(a.airKept, b.airKept, at.part, row.airKept);
+    mix(a.smallInstances, b.smallInstances, at.part, row.smallInstances);
+    mix(a.farInstances, b.farInstances, at.part, row.farInstances);
+    row.instances = std::lerp(a.instances, b.instances, at.part);
+  }
+}
+
+Estimate FlightModel::estimate(const ValidatedParameters& parameters) const {
+  const auto ground = std::make_shared<GroundOfRow>(impl_->highest);
+  Decider decider(parameters);
+  decider.setGround(ground);
+  const double budgetMs = parameters->measure.budget.value();
+  HoldMemory memory;
+  std::vector<double> ms;
+  ms.reserve(impl_->rows.size());
+  double flip = 0;
+  for (const Row& row : impl_->rows) {
+    ground->set(row);
+    decider.next(decider.inputFor(row.state));
+    if (!row.over) continue;
+    const FrameDecision& decision = decider.decision();
+    FrameLevers levers = leversOf(decision, *parameters).drawn;
+    if (parameters->hold.enabled)
+      levers = withBudget(levers, impl_->hold(row, levers, decision, *parameters, memory));
+    const Impl::Image image = impl_->imageOf(row, levers, decision);
+    decider.signalTracker().finished(image.ms, budgetMs, static_cast<std::uint64_t>(image.triangles));
+    ms.push_back(image.ms);
+    flip += image.flip;
+  }
+  if (ms.empty()) return {};
+  const double count = static_cast<double>(ms.size());
+  return {rankOf(ms, 0.5), rankOf(ms, 0.95), rankOf(ms, 0.99), flip / count};
+}
+
+}  // namespace trimtab::tune

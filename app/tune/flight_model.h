@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "drawn_samples.h"
+#include "trimtab/host/flight.h"
+#include "trimtab/preset/table.h"
+#include "trimtab/terrain/format/database.h"
+
+/// Estimates what a preset would take and lose over a flight, without drawing it.
+namespace trimtab::tune {
+
+/// What a preset is estimated to take and to lose over the rows of a flight that lie above the terrain. It is
+/// an estimate and no bound: whoever needs more draws.
+struct Estimate {
+  double medianMs = 0, p95Ms = 0, p99Ms = 0;  ///< by nearest rank, whatever the number of rows
+  double flip = 0;                            ///< mean of the rows
+};
+
+/// Knows of every row of a flight what each allowed error would draw, counted once in the terrain's index,
+/// and from a few drawn rows what triangles and pixels cost and what each lever loses. A preset's decisions
+/// are those of a session, row by row; load and triangles that its rules ask for, and the budget that it
+/// holds, follow from the estimate itself.
+///
+/// It does not know what blur, the distance between levels and static trees lose or cost.
+class FlightModel {
+ public:
+  /// Where images are and how large.
+  struct Scene {
+    std::shared_ptr<const terrain::Database> terrain;
+    int widthPx = 0, heightPx = 0;
+  };
+  /// Counts. At most `kMostRows` rows are kept, evenly spread. `start` says from where and how widely one
+  /// looks. The rows to draw are `drawn` of them at most.
+  FlightModel(const Scene& scene, const Flight& flight, const ValidatedParameters& start, std::size_t drawn);
+  ~FlightModel();
+  FlightModel(FlightModel&&) noexcept;
+
+  static constexpr std::size_t kMostRows = 1200;
+
+  /// Returns the rows that samples are to be drawn of; empty if no row lies above the terrain.
+  const std::vector<SampleRow>& toDraw() const;
+  /// Fits costs to the samples and takes their losses. They must be of the rows of toDraw().
+  void learn(const DrawnSamples& samples);
+
+  /// Estimates a preset. Call it after learn().
+  Estimate estimate(const ValidatedParameters& parameters) const;
+
+  std::size_t rows() const;  ///< that are decided
+  /// Returns by which part the fitted costs miss the samples' times: the median, and what 95 % stay below.
+  struct Fit {
+    double median = 0, p95 = 0;
+  };
+  Fit fit() const;
+  /// Returns what an image takes of which nothing is ground, milliseconds, in the row where it takes most.
+  double emptyMs() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace trimtab::tune

@@ -1,0 +1,162 @@
+#include "app/tune/flight_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/harness/flown_frames.h"
+#include "tests/app/harness/mountain_plan.h"
+#include "tests/app/ig_support.h"
+#include "trimtab/preset/preset.h"
+#include "trimtab/scene/error_meter.h"
+
+namespace trimtab::tune {
+namespace {
+
+/// A model of the mountains with samples that were drawn once.
+class FlightModelTest : public testing::Test {
+ protected:
+  static constexpr int kWidth = 480, kHeight = 288;
+  /// Patches have levels of many errors.
+  static std::shared_ptr<const terrain::Database> land() {
+    static const std::shared_ptr<const terrain::Database> land =
+        terrain::Database::open(test::smallTerrain()).value();
+    return land;
+  }
+  static Flight flight() { return test::weavingFlight(60, 2); }
+  struct World {
+    std::unique_ptr<experiment::Stage> stage;
+    std::unique_ptr<FlightModel> model;
+    DrawnSamples samples;
+  };
+  static World& world() {
+    static World world = [] {
+      World w;
+      experiment::Setup setup;
+      setup.terrain = land();
+      setup.widthPx = kWidth;
+      setup.heightPx = kHeight;
+      w.stage = std::move(experiment::Stage::open(setup)).value();
+      w.model = std::make_unique<FlightModel>(FlightModel::Scene{land(), kWidth, kHeight}, flight(),
+                                              edited([](TuningParameters&) {}), 6);
+      w.samples = *drawSamples(*w.stage, w.model->toDraw(), [](double) { return true; });
+      w.model->learn(w.samples);
+      return w;
+    }();
+    return world;
+  }
+  static ValidatedParameters edited(const std::function<void(TuningParameters&)>& edit) {
+    TuningParameters parameters;
+    parameters.terrain.form = TerrainForm::patches;
+    edit(parameters);
+    return validate(parameters).value();
+  }
+  static Estimate estimate(const std::function<void(TuningParameters&)>& edit) {
+    return world().model->estimate(edited(edit));
+  }
+};
+
+TEST_F(FlightModelTest, samplesReadBackBitForBit) {
+  const auto read = parseSamples(toJson(world().samples), "samples");
+  ASSERT_TRUE(read) << toString(read.findings());
+  EXPECT_EQ(toJson(*read), toJson(world().samples));
+  EXPECT_FALSE(parseSamples("{\"format\": \"other\"}", "samples"));
+  EXPECT_FALSE(parseSamples("not JSON", "samples"));
+}
+
+TEST_F(FlightModelTest, coarserTakesLessTimeAndLosesMore) {
+  const Estimate fine = estimate([](TuningParameters& p) { p.lod.screenSpaceError = Pixels{1}; });
+  Estimate before = fine;
+  for (const double px : {4.0, 8.0, 16.0}) {
+    const Estimate now = estimate([&](TuningParameters& p) { p.lod.screenSpaceError = Pixels{px}; });
+    EXPECT_GT(now.flip, before.flip) << px;
+    before = now;
+  }
+  EXPECT_LT(before.medianMs, fine.medianMs);
+}
+
+TEST_F(FlightModelTest, theOrderOfPresetsIsThatOfDrawnErrors) {
+  // Of each row that is measured, with the meter of `bench`.
+  scene::ErrorMeter meter;
+  ASSERT_TRUE(meter.initialize().usable);
+  meter.setTerrain(land());
+  const harness::Flying flying{land(), kWidth, kHeight, false, 1, {}};
+  const std::vector<std::size_t> rows = harness::sampledRows(flight(), *land(), 6);
+  double drawnBefore = 0, estimatedBefore = 0;
+  for (const auto& [px, scale] : {std::pair{1.0, 1.0}, {2.0, 1.0}, {2.0, 2.0}, {4.0, 2.0}, {8.0, 3.0}}) {
+    const ValidatedParameters preset = edited([&, px = px, scale = scale](TuningParameters& p) {
+      p.lod.screenSpaceError = Pixels{px};
+      p.lod.scale = Ratio{scale};
+    });
+    const auto frames = harness::flyFrames(*world().stage, flying, flight(), preset, rows);
+    ASSERT_TRUE(frames);
+    double drawn = 0;
+    for (const harness::FlownFrame& frame : *frames)
+      drawn += meter.measure(frame.images[0].request, frame.images[0].before, nullptr).flip;
+    drawn /= static_cast<double>(frames->size());
+    const double estimated = world().model->estimate(preset).flip;
+    EXPECT_GT(drawn, drawnBefore);
+    EXPECT_GT(estimated, estimatedBefore);
+    EXPECT_NEAR(estimated / drawn, 1, 0.5) << px << " px times " << scale;
+    drawnBefore = drawn, estimatedBefore = estimated;
+  }
+  meter.release();
+}
+
+TEST_F(FlightModelTest, rulesSeeTheTrianglesThatAreEstimated) {
+  // So many triangles are always too many, and never, so that the rule says what is drawn.
+  const auto policy = [&](double from) {
+    return estimate([&](TuningParameters& p) {
+      p.policy.enabled = true;
+      p.policy.terms.line = {"triangles many = ramp " + std::to_string(from) + ' ' +
+                             std::to_string(from + 1)};
+      p.policy.rules.line = {"if triangles is many then screen_space_error = 16"};
+    });
+  };
+  const Estimate always = policy(1), never = policy(1e7);
+  const Estimate fine = estimate([](TuningParameters&) {});
+  const Estimate coarse = estimate([](TuningParameters& p) { p.lod.screenSpaceError = Pixels{16}; });
+  EXPECT_EQ(never.flip, fine.flip);
+  // The first images of a flight know no triangles yet.
+  EXPECT_NEAR(always.flip, coarse.flip, 0.15 * coarse.flip);
+  EXPECT_GT(coarse.flip, 2 * fine.flip);
+}
+
+TEST_F(FlightModelTest, aBudgetIsHeldByTheEstimate) {
+  const double wholeMs = estimate([](TuningParameters& p) { p.lod.screenSpaceError = Pixels{1}; }).p99Ms;
+  const auto held = [&](double part) {
+    return estimate([&](TuningParameters& p) {
+      p.lod.screenSpaceError = Pixels{1};
+      p.hold.enabled = true;
+      p.measure.budget = Milliseconds{part * wholeMs};
+    });
+  };
+  EXPECT_LE(held(0.7).p95Ms, 0.7 * wholeMs * 1.1);
+  EXPECT_GT(held(0.7).flip, held(3).flip);
+  EXPECT_NEAR(held(3).p99Ms, wholeMs, 1e-9) << "what fits stays";
+}
+
+TEST_F(FlightModelTest, lookingForHiddenGroundIsTheCullingsOwn) {
+  // Whether anything is looked for changes the time and never the picture.
+  const auto membership = [](double y) {
+    return [y](TuningParameters& p) {
+      for (CurvePoints* curve :
+           {static_cast<CurvePoints*>(&p.altitude.curve), static_cast<CurvePoints*>(&p.pitch.curve)})
+        for (std::size_t i = 0; i < curve->size; ++i) curve->point[i].y = y;
+    };
+  };
+  const Estimate always = estimate(membership(1)), never = estimate(membership(0));
+  EXPECT_EQ(always.flip, never.flip);
+  EXPECT_NE(always.medianMs, never.medianMs);
+}
+
+TEST(FlightModel, aFlightBesideTheTerrainHasNothingToDraw) {
+  Flight flight = harness::mountainFlight();
+  for (AircraftState& state : flight.states) state.position.longitude = Degrees{-60};
+  const FlightModel model({harness::hills(), 96, 64}, flight, defaultParameters(), 4);
+  EXPECT_TRUE(model.toDraw().empty());
+}
+
+}  // namespace
+}  // namespace trimtab::tune

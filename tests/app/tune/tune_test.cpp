@@ -1,0 +1,175 @@
+#include "app/tune/tune.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "tests/app/harness/mountain_plan.h"
+#include "trimtab/preset/preset.h"
+
+/// Whole runs over a small terrain.
+namespace trimtab::tune {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// The second half of the flight is held out.
+Plan smallTunePlan() {
+  Plan plan;
+  plan.terrain = harness::hills();
+  plan.terrainName = "mountains";
+  const Flight flight = harness::mountainFlight();
+  const auto half = flight.states.begin() + 30;
+  plan.flights = {{"first", {"first", {flight.states.begin(), half}}}};
+  plan.heldOut = {{"second", {"second", {half, flight.states.end()}}}};
+  plan.free = {"lod.screen_space_error_px", "lod.scale"};
+  plan.widthPx = 160;
+  plan.heightPx = 96;
+  plan.drawnRows = 3;
+  plan.evaluations = 400;
+  plan.points = 2;
+  plan.frames = 3;
+  plan.repeats = 1;
+  plan.version = "test";
+  return plan;
+}
+
+std::string searchOf(const fs::path& folder, int search = 0) {
+  return test::readFile(folder / ("search-" + std::to_string(search) + ".json"));
+}
+
+TEST(Tune, findsPresetsAndSaysWhatTheyAreWorth) {
+  const test::ScratchDir dir;
+  Plan plan = smallTunePlan();
+  plan.maxError = 0.02;
+  double told = 0;
+  plan.progress = [&](double fraction, const std::string&) {
+    EXPECT_GE(fraction, told - 1e-9);
+    told = fraction;
+    return true;
+  };
+  const auto outcome = run(plan, dir / "out");
+  ASSERT_TRUE(outcome) << toString(outcome.findings());
+  EXPECT_THAT(outcome->answer, HasSubstr("on flights that the search has not seen: preset "));
+  std::size_t found = 0;
+  for (const Tuned& preset : outcome->presets) {
+    ASSERT_EQ(preset.measured.size(), 2u) << preset.name << ": the flight that was seen, and the other";
+    EXPECT_GT(preset.measured[0].medianMs, 0);
+    if (preset.role != Role::found) continue;
+    ++found;
+    const auto file = loadPreset((dir / "out" / "presets" / (preset.name + ".json")).string());
+    ASSERT_TRUE(file) << toString(file.findings());
+    EXPECT_THAT(differences(file->parameters, *preset.parameters), testing::IsEmpty());
+    EXPECT_FALSE(preset.moved.empty());
+  }
+  EXPECT_GT(found, 0u);
+  EXPECT_GE(outcome->presets.size(), found + 3) << "the start, one parameter, and random ones";
+  EXPECT_TRUE(std::any_of(outcome->presets.begin(), outcome->presets.end(),
+                          [](const Tuned& t) { return t.onFront; }));
+  EXPECT_THAT(test::readFile(dir / "out" / "tune.html"), HasSubstr("tuned-1"));
+  EXPECT_NEAR(told, 1, 0.01);
+}
+
+TEST(Tune, aRunThatWasStoppedComesToTheSamePresets) {
+  const test::ScratchDir dir;
+  Plan plan = smallTunePlan();
+  plan.searches = 2;
+  const auto whole = run(plan, dir / "whole");
+  ASSERT_TRUE(whole) << toString(whole.findings());
+  // Samples are times, which no second run repeats: what follows from them does.
+  fs::create_directory(dir / "stopped");
+  for (const char* name : {"tune-plan.json", "samples-0.json", "samples-1.json"})
+    fs::copy_file(dir / "whole" / name, dir / "stopped" / name);
+  int calls = 0;
+  plan.progress = [&](double, const std::string& what) {
+    return !(what.starts_with("search 2") && ++calls > 3);
+  };
+  const auto stopped = run(plan, dir / "stopped");
+  ASSERT_FALSE(stopped);
+  EXPECT_THAT(toString(stopped.findings()), HasSubstr("goes on"));
+  EXPECT_TRUE(fs::exists(dir / "stopped" / "search-0.json"));
+  EXPECT_FALSE(fs::exists(dir / "stopped" / "search-1.json"));
+  plan.progress = nullptr;
+  const auto resumed = run(plan, dir / "stopped");
+  ASSERT_TRUE(resumed) << toString(resumed.findings());
+  for (int s = 0; s < 2; ++s) EXPECT_EQ(searchOf(dir / "stopped", s), searchOf(dir / "whole", s));
+  EXPECT_NE(searchOf(dir / "whole", 0), searchOf(dir / "whole", 1)) << "seeds of their own";
+}
+
+TEST(Tune, partsDoTogetherWhatOneProcessDoes) {
+  const test::ScratchDir dir;
+  Plan plan = smallTunePlan();
+  plan.searches = 3;
+  plan.maxError = 0.02;
+  const auto whole = run(plan, dir / "whole");
+  ASSERT_TRUE(whole) << toString(whole.findings());
+  fs::create_directory(dir / "parts");
+  for (const char* name : {"tune-plan.json", "samples-0.json", "samples-1.json"})
+    fs::copy_file(dir / "whole" / name, dir / "parts" / name);
+  std::vector<std::string> notes;
+  std::string answer;
+  // Samples are there; searches, frames to try out and frames to measure come, each in two parts.
+  for (int step = 0; step < 3; ++step)
+    for (std::size_t i : {std::size_t{1}, std::size_t{0}}) {
+      plan.part = harness::Plan::Part{i, 2};
+      const auto outcome = run(plan, dir / "parts");
+      ASSERT_TRUE(outcome) << toString(outcome.findings());
+      if (!outcome->answer.empty()) answer = outcome->answer;
+      if (!outcome->notes.empty()) notes.push_back(outcome->notes.back());
+    }
+  for (int s = 0; s < 3; ++s) EXPECT_EQ(searchOf(dir / "parts", s), searchOf(dir / "whole", s));
+  EXPECT_FALSE(answer.empty()) << "the last part joins";
+  EXPECT_THAT(notes.front(), HasSubstr("Part 2 of 2"));
+  EXPECT_TRUE(fs::exists(dir / "parts" / "tune.html"));
+}
+
+TEST(Tune, refusesBeforeHoursAreSpent) {
+  const test::ScratchDir dir;
+  const auto refusal = [&](const std::function<void(Plan&)>& edit) {
+    Plan plan = smallTunePlan();
+    edit(plan);
+    const auto outcome = run(plan, dir / "refused");
+    fs::remove_all(dir / "refused");
+    return outcome ? std::string() : toString(outcome.findings());
+  };
+  EXPECT_THAT(refusal([](Plan& p) { p.free.clear(); }), HasSubstr("at least one parameter"));
+  EXPECT_THAT(refusal([](Plan& p) { p.flights.clear(); }), HasSubstr("--flight"));
+  EXPECT_THAT(refusal([](Plan& p) { p.heldOut = p.flights; }), HasSubstr("was not seen"));
+  EXPECT_THAT(refusal([](Plan& p) { p.budgetMs = 1e-3; }), HasSubstr("an image without ground"));
+  EXPECT_THAT(refusal([](Plan& p) {
+                for (AircraftState& state : p.flights[0].flight.states)
+                  state.position.latitude = Degrees{-40};
+              }),
+              HasSubstr("over the terrain mountains"));
+}
+
+TEST(Tune, aFolderOfAnotherPlanIsNamedAndKept) {
+  const test::ScratchDir dir;
+  const Plan plan = smallTunePlan();
+  ASSERT_TRUE(run(plan, dir / "out"));
+  const std::string before = searchOf(dir / "out");
+  Plan other = plan;
+  other.seed = 2;
+  const auto refused = run(other, dir / "out");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(toString(refused.findings()), HasSubstr("seed"));
+  EXPECT_EQ(searchOf(dir / "out"), before);
+  fs::create_directory(dir / "notes");
+  test::writeFile(dir / "notes" / "mine.txt", "mine");
+  const auto full = run(plan, dir / "notes");
+  ASSERT_FALSE(full);
+  EXPECT_THAT(toString(full.findings()), HasSubstr("new or empty folder"));
+}
+
+TEST(Tune, withoutAHeldOutFlightItSaysThatNothingIsProven) {
+  const test::ScratchDir dir;
+  Plan plan = smallTunePlan();
+  plan.heldOut.clear();
+  const auto outcome = run(plan, dir / "out");
+  ASSERT_TRUE(outcome) << toString(outcome.findings());
+  EXPECT_THAT(outcome->answer, HasSubstr("nothing is proven"));
+}
+
+}  // namespace
+}  // namespace trimtab::tune
