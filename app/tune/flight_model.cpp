@@ -20,13 +20,20 @@ constexpr double kLeastPx = 0.5;
 constexpr std::size_t kCounted = 7 * kPlacesPerOctave + 1;
 using Counted = std::array<float, kCounted>;
 
-/// Returns what a ladder says at an allowed error, pixels.
-double countAt(const Counted& counted, double errorPx) {
-  const double place = std::clamp(double{kPlacesPerOctave} * std::log2(errorPx / kLeastPx), 0.0,
-                                  static_cast<double>(kCounted - 1));
+/// Returns where an allowed error, pixels, lies on the ladder.
+double placeOf(double errorPx) {
+  return double{kPlacesPerOctave} * std::log2(errorPx / kLeastPx);
+}
+/// Returns what the ladder says at a place; beyond its ends, what it says there.
+double atPlace(const Counted& counted, double where) {
+  const double place = std::clamp(where, 0.0, static_cast<double>(kCounted - 1));
   const auto at = std::min(static_cast<std::size_t>(place), kCounted - 2);
   return std::lerp(static_cast<double>(counted[at]), static_cast<double>(counted[at + 1]),
                    place - static_cast<double>(at));
+}
+
+double countAt(const Counted& counted, double errorPx) {
+  return atPlace(counted, placeOf(errorPx));
 }
 
 using Steps = std::array<float, kLossSteps>;
@@ -69,7 +76,8 @@ double stepAt(const Steps& steps, Loss loss, double value, double rest) {
 /// What is known of a row.
 struct Row {
   std::size_t row = 0;  ///< of the flight
-  AircraftState state;
+  /// Its state, with the velocity that follows from those before; the ground is asked for by each preset.
+  FrameInput input;
   std::optional<Metres> ground;  ///< height of the ground below
   bool over = false;             ///< lies above the terrain, so that its image counts
   double groundMpx = 0, imageMpx = 0;
@@ -230,19 +238,20 @@ FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameL
 HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, const FrameDecision& decision,
                                    const TuningParameters& parameters, HoldMemory& memory) const {
   HoldGiven given;
-  given.timeS = row.state.time;
+  given.timeS = row.input.state.time;
   given.budgetMs = parameters.measure.budget.value();
   given.asked = {asked.errorPx, asked.renderScale, asked.particleShare, 1};
   given.particles = particlesOf(decision) * asked.particleShare;
   given.imageMpx = row.imageMpx;
   given.groundMpx = row.groundMpx;
   const double drawn = asked.occlusion ? row.drawnHidden : row.drawnOpen;
+  const double tiles = placeOf(asked.errorPx * asked.lodScale);
+  const double objects = placeOf(asked.objectErrorPx * asked.lodScale);
   const double toNext = placesToNext(asked.errorPx);
   for (std::size_t k = 0; k < kErrorSteps; ++k) {
-    const double places = k == 0 ? 0 : toNext + static_cast<double>(k - 1);
-    const double coarser = asked.lodScale * std::exp2(places / kPlacesPerOctave);
-    given.triangles[k] = drawn * (countAt(row.tilesAhead, asked.errorPx * coarser) +
-                                  countAt(row.objectsAhead, asked.objectErrorPx * coarser));
+    const double coarser = k == 0 ? 0 : toNext + static_cast<double>(k - 1);
+    given.triangles[k] =
+        drawn * (atPlace(row.tilesAhead, tiles + coarser) + atPlace(row.objectsAhead, objects + coarser));
   }
   static_cast<ClockCoefficients&>(given.cost) = cost.coefficients;
   // The arbiter knows no instances: what they cost does not follow its levers.
@@ -273,11 +282,12 @@ FlightModel::FlightModel(const Scene& scene, const Flight& flight, const Validat
     row.row = i * flight.states.size() / count;
     const AircraftState& state = flight.states[row.row];
     session.fly(state, state.time);
-    row.state = session.input().state;
+    row.input.state = session.input().state;
     row.ground = scene.terrain->heightAt(state.position.latitude, state.position.longitude);
     row.over = scene::liesOver(scene.terrain->info(), state.position);
     // Only a session without a state has none.
     requests.push_back(*session.request(state.time, scene.widthPx, scene.heightPx));
+    row.input.state.velocity = requests.back().velocity;
     if (row.over) counter.count(requests.back(), row);
     impl_->rows.push_back(std::move(row));
   }
@@ -368,10 +378,13 @@ Estimate FlightModel::estimate(const ValidatedParameters& parameters) const {
   HoldMemory memory;
   std::vector<double> ms;
   ms.reserve(impl_->rows.size());
-  double flip = 0;
+  double flip = 0, sumMs = 0;
   for (const Row& row : impl_->rows) {
     ground->set(row);
-    decider.next(decider.inputFor(row.state));
+    FrameInput input = row.input;
+    input.aboveGround = decider.groundBelow(input.state);
+    input.highestGround = decider.highestGround();
+    decider.forImage(std::move(input));
     if (!row.over) continue;
     const FrameDecision& decision = decider.decision();
     FrameLevers levers = leversOf(decision, *parameters).drawn;
@@ -380,11 +393,12 @@ Estimate FlightModel::estimate(const ValidatedParameters& parameters) const {
     const Impl::Image image = impl_->imageOf(row, levers, decision);
     decider.signalTracker().finished(image.ms, budgetMs, static_cast<std::uint64_t>(image.triangles));
     ms.push_back(image.ms);
+    sumMs += image.ms;
     flip += image.flip;
   }
   if (ms.empty()) return {};
   const double count = static_cast<double>(ms.size());
-  return {rankOf(ms, 0.5), rankOf(ms, 0.95), rankOf(ms, 0.99), flip / count};
+  return {rankOf(ms, 0.5), rankOf(ms, 0.95), rankOf(ms, 0.99), sumMs / count, flip / count};
 }
 
 }  // namespace trimtab::tune

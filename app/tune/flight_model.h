@@ -17,7 +17,8 @@ namespace trimtab::tune {
 /// an estimate and no bound: whoever needs more draws.
 struct Estimate {
   double medianMs = 0, p95Ms = 0, p99Ms = 0;  ///< by nearest rank, whatever the number of rows
-  double flip = 0;                            ///< mean of the rows
+  double meanMs = 0;
+  double flip = 0;  ///< mean of the rows
 };
 
 /// Knows of every row of a flight what each allowed error would draw, counted once in the terrain's index,
