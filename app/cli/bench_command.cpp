@@ -23,10 +23,11 @@ namespace trimtab::cli {
 namespace {
 
 struct BenchOptions {
-  std::string terrain, origin, output, columns, cases = "none,view_frustum,proposed", size = "1280x720", part;
+  std::string terrain, origin, output, columns, cases = "none,view_frustum,proposed", size = "1280x720";
   std::vector<std::string> flights, presets{"default"}, settings, sweeps;
   std::size_t frames = 60, repeats = 5;
   bool whole = false, json = false;
+  PartOptions part;
 };
 
 Finding refused(const char* option, const std::string& expected, const std::string& found) {
@@ -142,8 +143,8 @@ int run(const BenchOptions& arguments) {
   if (!parseCases(arguments.cases, plan.cases))
     faults.push_back(
         refused("--cases", "some of none, view_frustum, proposed with commas between", arguments.cases));
-  if (!arguments.part.empty() && !parsePart(arguments.part, plan.part))
-    faults.push_back(refusedPart(arguments.part));
+  const Findings badPart = arguments.part.read(plan.part);
+  faults.insert(faults.end(), badPart.begin(), badPart.end());
   report(faults);
   bool usable = readFlights(arguments, plan);
   usable = readPresets(arguments, plan) && usable && faults.empty();
@@ -153,10 +154,8 @@ int run(const BenchOptions& arguments) {
   const Result<harness::Results> results = harness::run(plan, arguments.output);
   report(results.findings());
   if (!results) return kRefused;
-  if (results->units.empty())
-    std::cout << "This part's frames are measured, and frames of others are missing.\n";
-  else
-    std::cout << (arguments.json ? harness::toJson(*results) : harness::toText(*results));
+  if (results->units.empty()) return arguments.part.incomplete(results->notes);
+  std::cout << (arguments.json ? harness::toJson(*results) : harness::toText(*results));
   return std::cout.flush() ? kDone : kRefused;
 }
 
@@ -196,8 +195,7 @@ void addBench(CLI::App& app, int& exitCode) {
   command->add_flag("--whole", arguments->whole,
                     "Draws every image of presets whose rules or budget depend on earlier images, not only "
                     "those that may have an effect on a measured frame");
-  command->add_option("--part", arguments->part,
-                      "I/N: measures only this share of the frames; the last part joins them");
+  arguments->part.add(*command);
   command->add_flag("--json", arguments->json, "One JSON document on standard output");
   command->add_option("-o,--output", arguments->output, "Folder for the results")->required();
   stopWhenAsked(*command);

@@ -1,6 +1,7 @@
 #include "settings.h"
 
 #include <cstdio>
+#include <iostream>
 
 #include "commands.h"
 #include "trimtab/preset/preset.h"
@@ -34,17 +35,27 @@ bool parseSize(const std::string& text, int& width, int& height) {
          width <= 16384 && height <= 16384;
 }
 
-bool parsePart(const std::string& text, std::optional<harness::Plan::Part>& part) {
-  unsigned number = 0, count = 0;
-  char after = 0;
-  if (std::sscanf(text.c_str(), "%u/%u%c", &number, &count, &after) != 2 || number < 1 || number > count)
-    return false;
-  part = harness::Plan::Part{number - 1, count};
-  return true;
+void PartOptions::add(CLI::App& command) {
+  CLI::Option* share = command.add_option(
+      "--part", part, "I/N: does only this share of the next step; the last part joins what all did");
+  command.add_flag("--join", join, "Joins what parts did and does nothing else; names what is missing")
+      ->excludes(share);
 }
 
-Finding refusedPart(const std::string& text) {
-  return {Severity::error, "--part", "", "I/N with I from 1 to N, such as 2/8", text};
+Findings PartOptions::read(std::optional<harness::Plan::Part>& into) const {
+  if (join) into = harness::Plan::Part{1, 1};
+  if (part.empty()) return {};
+  unsigned number = 0, count = 0;
+  char after = 0;
+  if (std::sscanf(part.c_str(), "%u/%u%c", &number, &count, &after) != 2 || number < 1 || number > count)
+    return {{Severity::error, "--part", "", "I/N with I from 1 to N, such as 2/8", part}};
+  into = harness::Plan::Part{number - 1, count};
+  return {};
+}
+
+int PartOptions::incomplete(const std::vector<std::string>& notes) const {
+  for (const std::string& note : notes) std::cout << note << '\n';
+  return std::cout.flush() && !join ? kDone : kRefused;
 }
 
 std::optional<ValidatedParameters> parametersFor(const std::string& name,

@@ -7,6 +7,10 @@
 #include "app/harness/run.h"
 #include "trimtab/preset/table.h"
 
+namespace CLI {
+class App;
+}
+
 namespace trimtab::cli {
 
 /// Applies the texts "key=value" of `--set`. Each one that cannot be applied is a finding.
@@ -20,8 +24,17 @@ std::optional<ValidatedParameters> parametersFor(const std::string& preset,
 /// Reads a size in pixels such as "1280x720". Returns false unless both sides are 16 to 16384.
 bool parseSize(const std::string& text, int& width, int& height);
 
-/// Reads a share of work such as "2/8". Returns false unless it is the first to the last of its number.
-bool parsePart(const std::string& text, std::optional<harness::Plan::Part>& part);
-Finding refusedPart(const std::string& text);
+/// The share of a run that one of several processes does.
+struct PartOptions {
+  std::string part;
+  bool join = false;
+
+  /// Adds --part and --join.
+  void add(CLI::App& command);
+  /// Sets the part that was asked for; what cannot be read is a finding.
+  Findings read(std::optional<harness::Plan::Part>& into) const;
+  /// Says what is missing of a run that is not complete. Returns the exit code.
+  int incomplete(const std::vector<std::string>& notes) const;
+};
 
 }  // namespace trimtab::cli

@@ -16,10 +16,11 @@ namespace trimtab::cli {
 namespace {
 
 struct TuneOptions {
-  std::string terrain, origin, output, columns, preset = "default", size = "1280x720", part, time = "p95";
+  std::string terrain, origin, output, columns, preset = "default", size = "1280x720", time = "p95";
   std::vector<std::string> flights, heldOut, free, settings;
   double budgetMs = 0, maxError = 0;
   tune::Plan plan;
+  PartOptions part;
   bool json = false;
 };
 
@@ -49,8 +50,8 @@ int run(const TuneOptions& arguments) {
   Findings faults;
   if (!parseSize(arguments.size, plan.widthPx, plan.heightPx))
     faults.push_back({Severity::error, "--size", "", "WIDTHxHEIGHT, each 16 to 16384 px", arguments.size});
-  if (!arguments.part.empty() && !parsePart(arguments.part, plan.part))
-    faults.push_back(refusedPart(arguments.part));
+  const Findings badPart = arguments.part.read(plan.part);
+  faults.insert(faults.end(), badPart.begin(), badPart.end());
   report(faults);
   const std::optional<ValidatedParameters> start = parametersFor(arguments.preset, arguments.settings);
   bool usable = readFlights(arguments, arguments.flights, plan.flights);
@@ -63,12 +64,9 @@ int run(const TuneOptions& arguments) {
   const Result<tune::Outcome> outcome = tune::run(plan, arguments.output);
   report(outcome.findings());
   if (!outcome) return kRefused;
-  if (plan.part) {
-    for (const std::string& note : outcome->notes) std::cout << note << '\n';
-  } else {
-    const experiment::Report report = tune::toReport(plan, *outcome);
-    std::cout << (arguments.json ? experiment::toJson(report) : experiment::toText(report));
-  }
+  if (outcome->answer.empty()) return arguments.part.incomplete(outcome->notes);
+  const experiment::Report report = tune::toReport(plan, *outcome);
+  std::cout << (arguments.json ? experiment::toJson(report) : experiment::toText(report));
   return std::cout.flush() ? kDone : kRefused;
 }
 
@@ -127,7 +125,7 @@ void addTune(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--seed", plan.seed, "Seed of the first search")->capture_default_str();
-  command->add_option("--part", arguments->part, "I/N: does only this share of the next step");
+  arguments->part.add(*command);
   command->add_flag("--json", arguments->json, "One JSON document on standard output");
   command->add_option("-o,--output", arguments->output, "Folder for the results")->required();
   stopWhenAsked(*command);

@@ -92,7 +92,8 @@ class Run {
   Clock::time_point start_ = Clock::now();
   std::string doing_;
   bool cancelled_ = false;
-  bool missing_ = false;  ///< frames of other parts are not there yet
+  std::size_t missing_ = 0;  ///< frames of other parts that are not there yet
+  std::filesystem::path firstMissing_;
   MachineWatch watch_;
 };
 
@@ -235,7 +236,7 @@ Findings Run::measureFlight(std::size_t flight, Results& results) {
         part && part->size() == units.size() &&
         std::all_of(part->begin(), part->end(), [](const Unit& u) { return u.frames.size() == 1; });
     if (!whole && plan_.part && i % plan_.part->count != plan_.part->index) {
-      missing_ = true;
+      if (missing_++ == 0) firstMissing_ = store_.fileOf(flight, rows[i]);
       continue;
     }
     if (!whole) {
@@ -257,7 +258,7 @@ Findings Run::measureFlight(std::size_t flight, Results& results) {
     finished(drawsOfFrame(), !whole);
     if (!goOn()) return {stopped()};
   }
-  if (missing_) return {};
+  if (missing_ > 0) return {};
   if (Findings failed = keepWorst(flight, runners, results.units.size(), units); !failed.empty())
     return failed;
   if (plan_.skips)
@@ -327,7 +328,12 @@ Result<Results> Run::all() {
     work_ += imagesOf(flight, runnersOf(plan_.flights[flight]));
   for (std::size_t flight = 0; flight < plan_.flights.size(); ++flight)
     if (failed = measureFlight(flight, results); !failed.empty()) return failed;
-  if (missing_) return Results{};
+  if (missing_ > 0) {
+    Results none;
+    none.notes.push_back(std::to_string(missing_) + " frames of other parts are missing, the first " +
+                         firstMissing_.string());
+    return none;
+  }
   // Images of what the terrain did not hold are no measurement.
   if (failed = plan_.terrain->damage(); !failed.empty()) return failed;
   Findings unknown;

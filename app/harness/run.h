@@ -38,8 +38,9 @@ struct Plan {
   bool skips = true;      ///< whether to measure what skipped work saved
   std::string version;    ///< of the program
   /// One of several processes or machines that share the folder: of the sampled frames it measures those
-  /// whose number leaves `index` when divided by `count`. While frames of other parts are missing, run()
-  /// returns results without units and writes none; the last part joins them, or a run without a part.
+  /// whose number leaves `index` when divided by `count`; with an index of `count` it measures none. While
+  /// frames of other parts are missing, run() writes no results and returns some without units, whose notes
+  /// say what is missing; the last part joins them, or a run without a part.
   struct Part {
     std::size_t index = 0, count = 1;
   };

@@ -161,6 +161,10 @@ std::optional<std::vector<Unit>> Store::frame(std::size_t flight, std::size_t ro
   return read(frameFile(flight, row));
 }
 
+fs::path Store::fileOf(std::size_t flight, std::size_t row) const {
+  return folder_ / frameFile(flight, row);
+}
+
 Result<Done> Store::writeFrame(std::size_t flight, std::size_t row, std::vector<Unit> units) const {
   Results part;
   part.units = std::move(units);

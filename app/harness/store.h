@@ -20,6 +20,7 @@ class Store {
 
   /// Returns all units of a flight with one frame each, or nothing if it is not measured completely.
   std::optional<std::vector<Unit>> frame(std::size_t flight, std::size_t row) const;
+  std::filesystem::path fileOf(std::size_t flight, std::size_t row) const;
   Result<Done> writeFrame(std::size_t flight, std::size_t row, std::vector<Unit> units) const;
   /// Returns all units of a flight without frames, with what their skips saved.
   std::optional<std::vector<Unit>> skips(std::size_t flight) const;

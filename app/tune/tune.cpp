@@ -68,18 +68,16 @@ class Run {
   Result<Outcome> all() {
     if (Findings failed = makeModels(); !failed.empty()) return failed;
     if (Findings failed = drawAll(); !failed.empty()) return failed;
-    if (!samplesThere_)
-      return partDone("the samples of the other flights are missing; then the searches come");
+    if (!missing_.empty()) return partDone("then the searches come");
     if (Findings failed = emptyFrame(); !failed.empty()) return failed;
     if (Findings failed = searchAll(); !failed.empty()) return failed;
-    if (!searchesThere_) return partDone("the other searches are missing; then presets are measured");
+    if (!missing_.empty()) return partDone("then presets are tried out");
     addOthers();
     addFound(chosen(plan_, front_, plan_.points, 1));
     if (Findings failed = tryOut(); !failed.empty()) return failed;
-    if (!framesThere_) return partDone("other frames that are tried out are missing; then all are measured");
+    if (!missing_.empty()) return partDone("then presets are measured");
     if (Findings failed = measureAll(); !failed.empty()) return failed;
-    if (!framesThere_)
-      return partDone("other frames are missing; the last part, or a run without one, joins them");
+    if (!missing_.empty()) return partDone("the last part, or a run without one, joins them");
     findIdle();
     markFront(plan_, outcome_.presets);
     if (Findings failed = writePresets(); !failed.empty()) return failed;
@@ -100,8 +98,7 @@ class Run {
              "it was cancelled; the same command goes on from what is there"}};
   }
   Result<Outcome> partDone(const std::string& next) {
-    outcome_.notes.push_back("Part " + std::to_string(plan_.part->index + 1) + " of " +
-                             std::to_string(plan_.part->count) + " is done; " + next + '.');
+    outcome_.notes.push_back(missing_ + "; " + next + '.');
     return std::move(outcome_);
   }
   std::size_t flights() const { return plan_.flights.size() + plan_.heldOut.size(); }
@@ -129,7 +126,7 @@ class Run {
   experiment::Stage& stage_;
   const SearchSpace& space_;
   std::vector<FlightModel> models_;  ///< by flight, those that the search sees first
-  bool samplesThere_ = true, searchesThere_ = true, framesThere_ = true;
+  std::string missing_;              ///< what other parts have not done yet; empty: nothing
   std::vector<Candidate> front_;
   Outcome outcome_;
 };
@@ -152,7 +149,7 @@ Findings Run::drawAll() {
   for (std::size_t i = 0; i < flights(); ++i) {
     std::optional<DrawnSamples> samples = folder_.samples(i);
     if (!samples && !isMine(i)) {
-      samplesThere_ = false;
+      missing_ = folder_.samplesFile(i).string() + " is missing";
       continue;
     }
     if (!samples) {
@@ -184,7 +181,7 @@ Findings Run::searchAll() {
   for (std::size_t s = 0; s < plan_.searches; ++s) {
     std::optional<std::vector<Candidate>> front = folder_.search(s);
     if (!front && !isMine(s)) {
-      searchesThere_ = false;
+      missing_ = folder_.searchFile(s).string() + " is missing";
       continue;
     }
     if (!front) {
@@ -212,7 +209,7 @@ Findings Run::searchAll() {
     front_ = joined(std::move(front_), *front);
   }
   outcome_.searchS = secondsSince(begin);
-  if (searchesThere_ && front_.empty())
+  if (missing_.empty() && front_.empty())
     return {fault("--free", "parameters of which some values break no rule", "none that was tried")};
   return {};
 }
@@ -304,7 +301,7 @@ Findings Run::tryOut() {
   if (found.empty()) return {};
   const auto results = draw(found, kTriedFrames, kTriedRepeats, "tried", kSearchPart, kTriedPart);
   if (!results) return results.findings();
-  framesThere_ = !results->units.empty();
+  if (results->units.empty()) missing_ = results->notes.front();
   std::vector<double> ratios;
   for (const Tuned* preset : found)
     for (std::size_t i = 0; i < plan_.flights.size(); ++i)
@@ -331,7 +328,7 @@ Findings Run::measureAll() {
   for (const Tuned& preset : outcome_.presets) all.push_back(&preset);
   const auto results = draw(all, plan_.frames, plan_.repeats, "measured", kTriedPart, 1);
   if (!results) return results.findings();
-  framesThere_ = !results->units.empty();
+  if (results->units.empty()) missing_ = results->notes.front();
   outcome_.othersShare = results->othersShare;
   for (Tuned& preset : outcome_.presets)
     for (std::size_t i = 0; i < flights(); ++i)

@@ -80,7 +80,8 @@ struct Outcome {
 /// move, if no flight lies over the terrain, or if the folder holds another plan, and says what to change.
 ///
 /// With Plan::part it does that part's share of the next step that is not complete (drawing samples,
-/// searching, measuring), and leaves the outcome empty but for a note of what comes next.
+/// searching, trying out, measuring). While other parts' shares are missing, the outcome has no answer, and a
+/// note says what is missing.
 Result<Outcome> run(const Plan& plan, const std::filesystem::path& folder);
 
 /// Returns the outcome as a table with the front as a plot, for whoever shows experiments.

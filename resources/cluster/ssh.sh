@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Runs `trimtab-cli tune ...` or `trimtab-cli bench ...` in parts on machines that GNU parallel reaches by ssh:
+#   resources/cluster/ssh.sh PARTS FOLDER HOSTS trimtab-cli tune ... -o FOLDER
+# HOSTS is as `parallel --sshlogin` has it: "a,b,c", or ":" for this machine alone. FOLDER and everything that the command
+# names must lie where all of them see it, under the same path.
+set -euo pipefail
+usage() { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
+[ $# -ge 4 ] || usage
+parts=$1 folder=$2 hosts=$3
+shift 3
+case $parts in '' | *[!0-9]*) usage ;; esac
+
+files() { find "$folder" -name '*.json' 2>/dev/null | wc -l; }
+command=$(printf '%q ' "$@")
+idle=0
+# The first look makes the folder and its plan, so that no two parts do.
+until "$@" --join >/dev/null 2>"$folder.txt"; do
+  before=$(files)
+  parallel --sshlogin "$hosts" --workdir "$PWD" --halt never "$command --part {}/$parts" ::: $(seq "$parts") || true
+  if [ "$(files)" -gt "$before" ]; then idle=0; else idle=$((idle + 1)); fi
+  [ "$idle" -lt 3 ] || { cat "$folder.txt" >&2; echo "nothing was added in three rounds" >&2; exit 1; }
+done
+rm -f "$folder.txt"
+exec "$@" --join
