@@ -10,6 +10,8 @@
 namespace trimtab::cli {
 
 inline constexpr int kDone = 0, kRefused = 1, kUsage = 2;
+/// What other parts of a run have to do is not done yet.
+inline constexpr int kIncomplete = 3;
 
 void addPreset(CLI::App& app, int& exitCode);
 /// Adds the subcommands `fuzzy` and `policy` to `preset`.

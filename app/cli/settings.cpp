@@ -55,7 +55,8 @@ Findings PartOptions::read(std::optional<harness::Plan::Part>& into) const {
 
 int PartOptions::incomplete(const std::vector<std::string>& notes) const {
   for (const std::string& note : notes) std::cout << note << '\n';
-  return std::cout.flush() && !join ? kDone : kRefused;
+  if (!std::cout.flush()) return kRefused;
+  return join ? kIncomplete : kDone;
 }
 
 std::optional<ValidatedParameters> parametersFor(const std::string& name,

@@ -149,7 +149,7 @@ Findings Run::drawAll() {
   for (std::size_t i = 0; i < flights(); ++i) {
     std::optional<DrawnSamples> samples = folder_.samples(i);
     if (!samples && !isMine(i)) {
-      missing_ = folder_.samplesFile(i).string() + " is missing";
+      if (missing_.empty()) missing_ = folder_.samplesFile(i).string() + " is missing";
       continue;
     }
     if (!samples) {
@@ -181,7 +181,7 @@ Findings Run::searchAll() {
   for (std::size_t s = 0; s < plan_.searches; ++s) {
     std::optional<std::vector<Candidate>> front = folder_.search(s);
     if (!front && !isMine(s)) {
-      missing_ = folder_.searchFile(s).string() + " is missing";
+      if (missing_.empty()) missing_ = folder_.searchFile(s).string() + " is missing";
       continue;
     }
     if (!front) {

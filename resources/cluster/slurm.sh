@@ -25,12 +25,15 @@ submit() {
 self=${TRIMTAB_SELF:-$self}
 export TRIMTAB_SELF=$self
 case ${TRIMTAB_STEP:-} in
-  part) exec "$@" --part "$SLURM_ARRAY_TASK_ID/$parts" ;;
+  part) "$@" --part "$SLURM_ARRAY_TASK_ID/$parts" ;;
   join)
-    if "$@" --join; then
-      echo complete >"$folder.log/state"
-      exit 0
-    fi
+    code=0
+    "$@" --join || code=$?
+    case $code in
+      0) echo complete >"$folder.log/state" && exit 0 ;;
+      3) ;; # parts are missing
+      *) echo "failed: see the logs in $folder.log" >"$folder.log/state" && exit 1 ;;
+    esac
     if [ "$(files)" -gt "$TRIMTAB_FILES" ]; then idle=0; else idle=$((idle + 1)); fi
     if [ "$idle" -ge 3 ]; then
       echo "nothing was added in three rounds; the logs in $folder.log say why" >"$folder.log/state"
@@ -42,7 +45,12 @@ case ${TRIMTAB_STEP:-} in
     mkdir -p "$folder.log"
     echo running >"$folder.log/state"
     # The first look makes the folder and its plan, so that no two tasks do.
-    "$@" --join >"$folder.log/first.txt" 2>&1 || true
+    code=0
+    "$@" --join || code=$?
+    if [ "$code" -ne 3 ]; then
+      [ "$code" -ne 0 ] || echo complete >"$folder.log/state"
+      exit "$code"
+    fi
     submit "$@"
     echo "submitted; $folder.log/state says when it is complete"
     ;;

@@ -13,12 +13,11 @@ case $parts in '' | *[!0-9]*) usage ;; esac
 files() { find "$folder" -name '*.json' 2>/dev/null | wc -l; }
 command=$(printf '%q ' "$@")
 idle=0
-# The first look makes the folder and its plan, so that no two parts do.
-until "$@" --join >/dev/null 2>"$folder.txt"; do
+# The first look makes the folder and its plan, so that no two parts do. It says 3 while parts are missing.
+while code=0 && { "$@" --join || code=$?; } && [ "$code" -ne 0 ]; do
+  [ "$code" -eq 3 ] || exit "$code"
   before=$(files)
   parallel --sshlogin "$hosts" --workdir "$PWD" --halt never "$command --part {}/$parts" ::: $(seq "$parts") || true
   if [ "$(files)" -gt "$before" ]; then idle=0; else idle=$((idle + 1)); fi
-  [ "$idle" -lt 3 ] || { cat "$folder.txt" >&2; echo "nothing was added in three rounds" >&2; exit 1; }
+  [ "$idle" -lt 3 ] || { echo "nothing was added in three rounds" >&2; exit 1; }
 done
-rm -f "$folder.txt"
-exec "$@" --join

@@ -1,0 +1,237 @@
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/child.h"
+#include "tests/support.h"
+
+/// The scripts of resources/cluster, on a real Slurm of one node and by GNU parallel, with what is killed
+/// there.
+namespace trimtab::tune {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Returns the processes whose command line holds all of these.
+std::vector<pid_t> processesWith(const std::vector<std::string>& words) {
+  std::vector<pid_t> found;
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::ifstream in(entry.path() / "cmdline");
+    std::string line((std::istreambuf_iterator<char>(in)), {});
+    std::replace(line.begin(), line.end(), '\0', ' ');
+    if (std::all_of(words.begin(), words.end(),
+                    [&](const std::string& word) { return line.find(word) != std::string::npos; }))
+      found.push_back(std::stoi(name));
+  }
+  return found;
+}
+
+/// A Slurm of one node below a folder, which nothing outside this machine reaches.
+class OneNodeSlurm {
+ public:
+  explicit OneNodeSlurm(const fs::path& folder) : folder_(folder) {
+    for (const char* name : {"state", "spool", "log"}) fs::create_directories(folder / name);
+    fs::permissions(folder, fs::perms::owner_all | fs::perms::group_exec | fs::perms::others_exec);
+    const std::string in = folder.string();
+    const int port = 20000 + ::getpid() % 20000;
+    std::string host(256, '\0');
+    ::gethostname(host.data(), host.size());
+    host = host.substr(0, std::min(host.find('\0'), host.find('.')));
+    test::writeFile(
+        folder / "slurm.conf",
+        "ClusterName=trimtab\nSlurmctldHost=" + host +
+            "(127.0.0.1)\nSlurmUser=root\nSlurmdUser=root\nSlurmctldPort=" + std::to_string(port) +
+            "\nSlurmdPort=" + std::to_string(port + 1) + "\nSrunPortRange=" + std::to_string(port + 2) + '-' +
+            std::to_string(port + 40) +
+            "\nCommunicationParameters=NoInAddrAny,NoCtldInAddrAny\nAuthInfo=socket=" + in +
+            "/munge.sock\nStateSaveLocation=" + in + "/state\nSlurmdSpoolDir=" + in +
+            "/spool\nSlurmctldPidFile=" + in + "/slurmctld.pid\nSlurmdPidFile=" + in +
+            "/slurmd.pid\nSlurmctldLogFile=" + in + "/log/slurmctld\nSlurmdLogFile=" + in +
+            "/log/slurmd\nProctrackType=proctrack/linuxproc\nTaskPlugin=task/"
+            "none\nJobAcctGatherType=jobacct_gather/none\n"
+            "AccountingStorageType=accounting_storage/none\nJobCompType=jobcomp/none\nSwitchType=switch/"
+            "none\n"
+            "SchedulerType=sched/builtin\nSelectType=select/"
+            "cons_tres\nSelectTypeParameters=CR_Core\nReturnToService=2\n"
+            "JobRequeue=0\nKillWait=2\nSlurmdTimeout=60\nSchedulerParameters=sched_interval=1,batch_sched_"
+            "delay=0\n"
+            "NodeName=" +
+            host + " NodeAddr=127.0.0.1 CPUs=" + std::to_string(cpus()) +
+            " State=UNKNOWN\nPartitionName=main Nodes=" + host + " Default=YES MaxTime=INFINITE State=UP\n");
+    ::setenv("SLURM_CONF", (folder / "slurm.conf").c_str(), 1);
+    test::writeFile(folder / "munge.key", std::string(64, 'k') + std::to_string(port));
+    fs::permissions(folder / "munge.key", fs::perms::owner_read | fs::perms::owner_write);
+    const test::Ran munge =
+        test::run("/usr/sbin/munged --force --key-file=" + in + "/munge.key --socket=" + in +
+                  "/munge.sock --pid-file=" + in + "/munged.pid --log-file=" + in +
+                  "/log/munged --seed-file=" + in + "/munge.seed");
+    said_ = munge.err + test::run("slurmctld -c").err + startNode();
+    ready_ = test::until([] { return test::run("sinfo -h -o %T").out == "idle\n"; });
+  }
+  ~OneNodeSlurm() {
+    for (const char* daemon : {"slurmd", "slurmctld", "munged"}) kill(daemon, SIGKILL);
+    for (const pid_t left : processesWith({folder_.string()})) ::kill(left, SIGKILL);
+  }
+  bool ready() const { return ready_; }
+  const std::string& said() const { return said_; }
+  std::string startNode() const { return test::run("slurmd").err; }
+  void kill(const std::string& daemon, int signal) const {
+    std::ifstream in(folder_ / (daemon + ".pid"));
+    if (pid_t pid = 0; in >> pid) ::kill(pid, signal);
+  }
+
+ private:
+  static long cpus() { return ::sysconf(_SC_NPROCESSORS_ONLN); }
+  fs::path folder_;
+  std::string said_;
+  bool ready_ = false;
+};
+
+class Cluster : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new test::ScratchDir;
+    const std::string tif = (*shared_ / "sample.tif").string();
+    ASSERT_EQ(test::run(cli() + " terrain sample --size-km 6 -o " + tif).exitCode, 0);
+    ASSERT_EQ(test::run(cli() + " terrain bake " + tif + " -o " + (*shared_ / "db").string()).exitCode, 0);
+    std::string csv = "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n";
+    for (int i = 0; i < 40; ++i)
+      csv += std::to_string(i * 0.5) + ',' + std::to_string(36.615 + i * 5e-4) + ",128.35," +
+             std::to_string(4000 + 100 * i) + ',' + std::to_string(-i * 0.3) + ",0," + std::to_string(i) +
+             '\n';
+    test::writeFile(*shared_ / "hop.csv", csv);
+    const test::Ran single = test::run(tune(*shared_ / "single"));
+    ASSERT_EQ(single.exitCode, 0) << single.err;
+  }
+  static void TearDownTestSuite() { delete shared_; }
+
+  static std::string cli() { return test::program("trimtab-cli").string(); }
+  static std::string tune(const fs::path& out) {
+    return cli() + " tune --terrain " + (*shared_ / "db").string() + " --flight " +
+           (*shared_ / "hop.csv").string() +
+           " --free 'lod.*' --size 160x96 --samples 3 --frames 4 --repeats 1 --points 2 --searches 8 "
+           "--max-error 0.05"
+           " --evaluations 20000 -o " +
+           out.string();
+  }
+  /// Samples are times, which no second run repeats; what follows from them is the same anywhere.
+  static void takeSamples(const fs::path& folder) {
+    fs::create_directories(folder);
+    for (const char* name : {"tune-plan.json", "samples-0.json"})
+      fs::copy_file(*shared_ / "single" / name, folder / name);
+  }
+  static void expectTheSingleRunsSearches(const fs::path& folder) {
+    for (int s = 0; s < 8; ++s) {
+      const std::string name = "search-" + std::to_string(s) + ".json";
+      EXPECT_EQ(test::readFile(folder / name), test::readFile(*shared_ / "single" / name)) << name;
+    }
+  }
+  static std::string script(const std::string& name) {
+    return (test::sourceDir() / "resources/cluster" / name).string();
+  }
+
+  static test::ScratchDir* shared_;
+};
+test::ScratchDir* Cluster::shared_ = nullptr;
+
+TEST_F(Cluster, slurmGivesTheSingleRunsSearchesWhateverIsKilled) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root, as which alone a private Slurm was tried";
+  const test::ScratchDir dir;
+  const OneNodeSlurm slurm(dir / "slurm");
+  ASSERT_TRUE(slurm.ready()) << slurm.said();
+  const fs::path out = dir / "out", state = dir / "out.log" / "state";
+  takeSamples(out);
+  const test::Ran submitted =
+      test::run("bash " + script("slurm.sh") + " 8 " + out.string() + ' ' + tune(out));
+  ASSERT_EQ(submitted.exitCode, 0) << submitted.out << submitted.err;
+  const auto killOne = [&](const std::vector<std::string>& words) {
+    EXPECT_TRUE(test::until([&] { return !processesWith(words).empty(); })) << words.front();
+    for (const pid_t pid : processesWith(words)) ::kill(pid, SIGKILL);
+  };
+  killOne({"tune", "--part", out.string()});        // what a task runs
+  killOne({"slurm_script", "tune", out.string()});  // a batch shell
+  EXPECT_TRUE(test::until([&] { return !processesWith({"--part", out.string()}).empty(); }));
+  slurm.kill("slurmd", SIGKILL);
+  EXPECT_EQ(slurm.startNode(), "");
+  // Without this the controller believes for minutes that the tasks of the killed daemon run.
+  test::run("scontrol reconfigure");
+  const auto complete = [&] { return test::readFile(state) == "complete\n"; };
+  // Some rounds of eight processes, which a busy machine takes its time for.
+  bool done = false;
+  for (int i = 0; i < 10 && !done; ++i) done = test::until(complete);
+  EXPECT_TRUE(done) << test::readFile(state) << test::run("squeue; tail -n 5 " + out.string() + ".log/*").out;
+  expectTheSingleRunsSearches(out);
+  EXPECT_TRUE(fs::exists(out / "tune.html"));
+}
+
+TEST_F(Cluster, parallelGivesTheSingleRunsSearches) {
+  const test::ScratchDir dir;
+  takeSamples(dir / "out");
+  const test::Ran done =
+      test::run("bash " + script("ssh.sh") + " 4 " + (dir / "out").string() + " : " + tune(dir / "out"));
+  ASSERT_EQ(done.exitCode, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("Within a mean FLIP of 0.05"));
+  expectTheSingleRunsSearches(dir / "out");
+}
+
+TEST_F(Cluster, aBenchInPartsIsTheBenchOfOneProcess) {
+  const test::ScratchDir dir;
+  const auto bench = [&](const fs::path& out) {
+    return cli() + " bench --terrain " + (*shared_ / "db").string() + " --flight " +
+           (*shared_ / "hop.csv").string() +
+           " --preset default high-cruise --size 96x64 --frames 6 --repeats 1 -o " + out.string();
+  };
+  ASSERT_EQ(test::run(bench(dir / "one")).exitCode, 0);
+  const test::Ran done =
+      test::run("bash " + script("ssh.sh") + " 3 " + (dir / "parts").string() + " : " + bench(dir / "parts"));
+  ASSERT_EQ(done.exitCode, 0) << done.err;
+  // Times differ from run to run; errors and counts do not.
+  const auto errors = [&](const char* folder) {
+    std::string kept;
+    std::ifstream in(dir / folder / "frames.csv");
+    std::string line;
+    std::getline(in, line);
+    std::vector<std::size_t> wanted;
+    std::istringstream header(line);
+    std::size_t column = 0;
+    for (std::string name; std::getline(header, name, ','); ++column)
+      for (const char* key : {"flight", "preset", "row", "flip", "triangles", "psnr_db"})
+        if (name == key) wanted.push_back(column);
+    EXPECT_GE(wanted.size(), 5u) << line;
+    while (std::getline(in, line)) {
+      std::istringstream row(line);
+      column = 0;
+      for (std::string value; std::getline(row, value, ','); ++column)
+        if (std::find(wanted.begin(), wanted.end(), column) != wanted.end()) kept += value + ' ';
+      kept += '\n';
+    }
+    return kept;
+  };
+  EXPECT_EQ(errors("parts"), errors("one"));
+  EXPECT_FALSE(errors("one").empty());
+}
+
+TEST_F(Cluster, aRefusedCommandIsNotSubmitted) {
+  const test::ScratchDir dir;
+  const std::string out = (dir / "out").string();
+  for (const std::string& before :
+       {script("slurm.sh") + " 2 " + out + ' ', script("ssh.sh") + " 2 " + out + " : "}) {
+    const test::Ran refused = test::run("bash " + before + tune(dir / "out") + " --free nothing.here");
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_THAT(refused.err, HasSubstr("nothing.here"));
+  }
+}
+
+}  // namespace
+}  // namespace trimtab::tune
