@@ -1,11 +1,15 @@
 #include "trimtab/terrain/scenery/objects.h"
 
+#include <GeographicLib/LocalCartesian.hpp>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "app/models/read_model.h"
 #include "tests/core/terrain/scenery/scenery_tiles.h"
 #include "tests/support.h"
+#include "trimtab/scene/offscreen.h"
+#include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/format/object_terrain.h"
 
@@ -31,6 +35,14 @@ std::string acOf(const std::vector<std::pair<std::string, std::array<double, 9>>
 /// A mast of 10 m with an arm of 5 m along the file's x.
 std::string mast() {
   return acOf({{"mast", {-0.1, 0, 0, 0.1, 0, 0, 0, 10, 0}}, {"arm", {0, 2, 0, 0, 2.2, 0, 5, 2, 0}}});
+}
+
+/// The same with broad ends, so that an image has them.
+std::string broadMast() {
+  return acOf({{"mast", {-0.2, 0, 0, 0.2, 0, 0, 0.2, 10, 0}},
+               {"mast", {-0.2, 0, 0, 0.2, 10, 0, -0.2, 10, 0}},
+               {"arm", {0, 9, 0, 5, 9, 0, 5, 9.4, 0}},
+               {"arm", {0, 9, 0, 5, 9.4, 0, 0, 9.4, 0}}});
 }
 
 class SceneryObjectsTest : public ::testing::Test {
@@ -110,11 +122,44 @@ Vec3 turnedBy(const std::array<std::int16_t, 4>& turn, Vec3 v) {
   return v + t * w + cross(q, t);
 }
 
-/// Expects a mast at heading 30 to be drawn as FlightGear says: its arm, along x, points south at 0 and turns
-/// anticlockwise, so that it points to 180 - 30 degrees; and it stands at 130 m.
+/// Where a mast stands, and how far its tips are from its foot: metres east, north and up, by GeographicLib.
+struct StandingMast {
+  GeodeticPosition foot;
+  Vec3 arm, top;
+  double armDeg() const { return std::atan2(arm.x, arm.y) * 180 / std::numbers::pi; }
+};
+std::vector<StandingMast> mastsOf(const ObjectIndex& index) {
+  std::vector<StandingMast> masts;
+  for (std::uint32_t c = 0; c < index.cells.size(); ++c)
+    for (std::uint32_t i = 0; index.cells[c].isLeaf(c) && i < index.cells[c].instances; ++i) {
+      const ObjectInstance& o = index.instances[index.cells[c].firstInstance + i];
+      const auto& from = index.cells[c].origin;
+      const Vec3 foot{from[0] * 16.0 + double{o.x}, from[1] * 16.0 + double{o.y},
+                      from[2] * 16.0 + double{o.z}};
+      const GeodeticPosition place = index.frame.toGeodetic(foot);
+      const GeographicLib::LocalCartesian local(place.latitude.value(), place.longitude.value(),
+                                                place.height.value());
+      const auto fromFoot = [&](Vec3 tip) {
+        const GeodeticPosition p = index.frame.toGeodetic(foot + turnedBy(o.turn, tip));
+        Vec3 v;
+        local.Forward(p.latitude.value(), p.longitude.value(), p.height.value(), v.x, v.y, v.z);
+        return v;
+      };
+      masts.push_back({place, fromFoot({5, 0, 0}), fromFoot({0, 0, 10})});
+    }
+  return masts;
+}
+
+/// Expects masts to be placed as FlightGear says: the arm, along x, points south at heading 0 and turns
+/// anticlockwise, so that it points to 180 degrees less the heading.
 TEST_F(SceneryObjectsTest, standUprightAtTheirHeightAndHeading) {
+  constexpr std::array<double, 5> kHeadings{0, 30, 137.5, 251, -44};
   for (const std::string pose : {"", " 0 90"}) {
-    list("OBJECT_SHARED Models/Power/mast.ac 7.1 50.55 130 30" + pose + "\n");
+    std::string lines;
+    for (std::size_t i = 0; i < kHeadings.size(); ++i)
+      lines += "OBJECT_SHARED Models/Power/mast.ac 7.0" + std::to_string(i + 1) + " 50.55 " +
+               std::to_string(130 + i) + ' ' + std::to_string(kHeadings[i]) + pose + '\n';
+    list(lines);
     terrain::BakeOptions options;
     options.sources = {dir_ / "fg"};
     options.sceneryModels = dir_ / "base";
@@ -125,14 +170,17 @@ TEST_F(SceneryObjectsTest, standUprightAtTheirHeightAndHeading) {
     ASSERT_TRUE(baked) << toString(baked.findings());
     const auto objects = (*baked)->objects();
     ASSERT_NE(objects, nullptr) << toString(baked.findings());
-    ASSERT_EQ(objects->index.instances.size(), 1u);
-    const ObjectInstance& o = objects->index.instances[0];
-    const auto& from = objects->index.cells[0].origin;
-    const Vec3 foot{from[0] * 16.0 + double{o.x}, from[1] * 16.0 + double{o.y}, from[2] * 16.0 + double{o.z}};
-    const GeodeticPosition place = objects->index.frame.toGeodetic(foot);
-    EXPECT_NEAR(place.height.value(), 130, 0.1);
-    EXPECT_NEAR(place.longitude.value(), 7.1, 1e-6);
-    EXPECT_NEAR(place.latitude.value(), 50.55, 1e-6);
+    const std::vector<StandingMast> masts = mastsOf(objects->index);
+    ASSERT_EQ(masts.size(), kHeadings.size());
+    for (const StandingMast& mast : masts) {
+      const auto i = static_cast<std::size_t>(std::lround(100 * (mast.foot.longitude.value() - 7) - 1));
+      ASSERT_LT(i, kHeadings.size());
+      EXPECT_NEAR(mast.foot.height.value(), 130.0 + static_cast<double>(i), 0.1);
+      EXPECT_NEAR(mast.foot.longitude.value(), 7.01 + 0.01 * static_cast<double>(i), 1e-6);
+      EXPECT_NEAR(mast.foot.latitude.value(), 50.55, 1e-6);
+      EXPECT_NEAR(std::remainder(mast.armDeg() - (180 - kHeadings[i]), 360.0), 0, 0.1);
+      EXPECT_LT(length(mast.top - Vec3{0, 0, 10}), 0.01);
+    }
     // The model as it is read, whose axes are those of the file with y up turned to z.
     const auto model = readModel(dir_ / "base/Models/Power/mast.ac");
     ASSERT_TRUE(model);
@@ -144,14 +192,6 @@ TEST_F(SceneryObjectsTest, standUprightAtTheirHeightAndHeading) {
     }
     EXPECT_NEAR(arm.x, 5, 1e-5);
     EXPECT_NEAR(top.z, 10, 1e-5);
-    const GeodeticPosition armTip = objects->index.frame.toGeodetic(foot + turnedBy(o.turn, {5, 0, 0}));
-    const double kMetresADegree = 111195;
-    const double north = (armTip.latitude - place.latitude).value() * kMetresADegree,
-                 east = (armTip.longitude - place.longitude).value() * kMetresADegree *
-                        std::cos(50.55 * std::numbers::pi / 180);
-    EXPECT_NEAR(std::atan2(east, north) * 180 / std::numbers::pi, 150, 0.3);
-    const GeodeticPosition tip = objects->index.frame.toGeodetic(foot + turnedBy(o.turn, {0, 0, 10}));
-    EXPECT_NEAR(tip.height.value(), 140, 0.1);
     // A roll of 90 degrees about x lays the mast down to one side; it is a level of its own model.
     float highest = 0;
     for (const auto& vertex : objects->vertices) highest = std::max(highest, vertex.z);
@@ -159,6 +199,138 @@ TEST_F(SceneryObjectsTest, standUprightAtTheirHeightAndHeading) {
     fs::remove_all(options.output);
   }
 }
+
+/// The shared scenery, whose lists are read here a second time, with a mast for each model that they name.
+class SharedScenery : public SceneryObjectsTest, public ::testing::WithParamInterface<const char*> {
+ protected:
+  struct Line {
+    double longitude = 0, latitude = 0, elevation = 0, heading = 0;
+  };
+  void SetUp() override {
+    TRIMTAB_NEEDS_SHARED(fs::path("data") / GetParam());
+    const fs::path folder = test::sharedDir() / "data" / GetParam();
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+      if (entry.path().extension() != ".stg") continue;
+      std::istringstream words(test::readFile(entry.path()));
+      for (std::string word, path; words >> word;) {
+        if (word != "OBJECT_SHARED") continue;
+        Line line;
+        ASSERT_TRUE(words >> path >> line.longitude >> line.latitude >> line.elevation >> line.heading);
+        lines_.push_back(line);
+        const fs::path file = dir_ / "shared" / path;
+        fs::create_directories(file.parent_path());
+        test::writeFile(file.parent_path() / "mast.ac", broadMast());
+        test::writeFile(file, "<PropertyList><path>mast.ac</path></PropertyList>");
+      }
+    }
+    ASSERT_FALSE(lines_.empty());
+    terrain::BakeOptions options;
+    options.sources = {folder};
+    options.sceneryModels = dir_ / "shared";
+    options.output = dir_ / "db";
+    options.post = Metres{500};
+    options.maxError = Metres{0};
+    options.readModel = readModel;
+    auto baked = terrain::bake(options);
+    ASSERT_TRUE(baked) << toString(baked.findings());
+    database_ = *baked;
+    ASSERT_NE(database_->objects(), nullptr) << toString(baked.findings());
+  }
+
+  double groundAt(double latitude, double longitude) const {
+    const auto ground = database_->heightAt(Degrees{latitude}, Degrees{longitude});
+    EXPECT_TRUE(ground);
+    return ground.value_or(Metres{0}).value();
+  }
+  /// How far the four posts about a place are from one plane: two triangles there leave the bilinear surface
+  /// by at most a quarter of it.
+  double twistAt(double latitude, double longitude) const {
+    const terrain::TerrainInfo& info = database_->info();
+    const double y = info.postLatitude.value(), x = info.postLongitude.value(),
+                 south = info.southWest.latitude.value(), west = info.southWest.longitude.value();
+    const double s = south + std::floor((latitude - south) / y) * y,
+                 w = west + std::floor((longitude - west) / x) * x;
+    return std::abs(groundAt(s, w) - groundAt(s, w + x) - groundAt(s + y, w) + groundAt(s + y, w + x));
+  }
+
+  static constexpr int kSide = 400, kHalf = kSide / 2;
+
+  /// Looks west at a mast from 40 m away and half its height, over the scenery's own triangles. Its tip is
+  /// where it must be in the image; its arm, which points south, is on the left.
+  void expectDrawn(scene::Renderer& renderer, scene::Offscreen& offscreen, const Line& line) {
+    constexpr double kEdge = 0.25, kPxAMetre = kHalf / kEdge / 40;
+    const GeographicLib::LocalCartesian local(line.latitude, line.longitude, line.elevation);
+    double latitude = 0, longitude = 0, height = 0;
+    local.Reverse(40, 0, 5, latitude, longitude, height);
+    FrameRequest r;
+    r.eye = {Degrees{latitude}, Degrees{longitude}, Metres{height}};
+    r.attitude = {Degrees{-90}, Degrees{0}, Degrees{0}};
+    r.view = {kSide, kSide, -kEdge, kEdge, -kEdge, kEdge, 1};
+    r.terrain.form = TerrainForm::static_trees;
+    r.waitForPages = true;
+    offscreen.makeCurrent();
+    renderer.draw(r, offscreen.framebuffer());
+    const auto rgba = renderer.readPixels(kSide, kSide);
+    // Other masts are farther, so that nothing of them is in the rows of the upper quarter.
+    int top = -1, west = kSide, east = -1;
+    for (int y = kHalf + static_cast<int>(2.5 * kPxAMetre); y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const auto* const p = &rgba[static_cast<std::size_t>(4 * (y * kSide + x))];
+        if (p[0] < 2 * p[1] || p[0] < 2 * p[2]) continue;
+        top = std::max(top, y), west = std::min(west, x), east = std::max(east, x);
+      }
+    EXPECT_NEAR(top, kHalf + 5 * kPxAMetre, 2) << latitude << ' ' << longitude;
+    EXPECT_NEAR(west, kHalf - 5 * kPxAMetre, 2) << latitude << ' ' << longitude;
+    EXPECT_NEAR(east, kHalf + 0.2 * kPxAMetre, 2) << latitude << ' ' << longitude;
+  }
+
+  std::vector<Line> lines_;
+  std::shared_ptr<const terrain::Database> database_;
+};
+
+TEST_P(SharedScenery, everyPlacementStandsUprightAtItsHeight) {
+  const std::vector<StandingMast> masts = mastsOf(database_->objects()->index);
+  ASSERT_EQ(masts.size(), lines_.size());
+  for (const Line& line : lines_) {
+    SCOPED_TRACE(std::to_string(line.latitude) + ' ' + std::to_string(line.longitude));
+    const GeographicLib::LocalCartesian local(line.latitude, line.longitude, 0);
+    const StandingMast* nearest = nullptr;
+    double distance = 1e9, height = 0;
+    for (const StandingMast& mast : masts) {
+      Vec3 v;
+      local.Forward(mast.foot.latitude.value(), mast.foot.longitude.value(), mast.foot.height.value(), v.x,
+                    v.y, v.z);
+      if (const double d = std::hypot(v.x, v.y); d < distance) distance = d, height = v.z, nearest = &mast;
+    }
+    ASSERT_NE(nearest, nullptr);
+    EXPECT_LT(distance, 0.1);
+    if (line.elevation == -9999)
+      EXPECT_NEAR(height, groundAt(line.latitude, line.longitude),
+                  0.1 + twistAt(line.latitude, line.longitude) / 4);
+    else
+      EXPECT_NEAR(height, line.elevation, 0.1);
+    EXPECT_NEAR(std::remainder(nearest->armDeg() - (180 - line.heading), 360.0), 0, 0.1);
+    EXPECT_LT(length(nearest->top - Vec3{0, 0, 10}), 0.01);
+  }
+  auto created = scene::Offscreen::create(kSide, kSide);
+  if (!created) GTEST_SKIP() << toString(created.findings());
+  const auto offscreen = std::move(created).value();
+  scene::Renderer renderer;
+  ASSERT_TRUE(renderer.initialize().usable);
+  renderer.setTerrain(database_);
+  for (const Line& line : lines_)
+    if (line.elevation != -9999) expectDrawn(renderer, *offscreen, line);
+  renderer.release();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SharedScenery,
+                         ::testing::Values("fg-cologne", "fg-debian-hawaii-bigisland",
+                                           "fg-debian-iceland-reykjanes", "fg-kansai-e135n35"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 class PropertyModel : public ::testing::Test {
  protected:
