@@ -200,7 +200,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
     if (bake->maxErrorM) options.maxError = Metres{*bake->maxErrorM};
     options.memory = Megabytes{bake->memoryMb};
     options.progress = progressLines();
-    report(terrain::aboutSources(options.sources, options.sceneryModels));
+    report(terrain::aboutSources(options));
     if (!bake->part.empty()) {
       unsigned number = 0, parts = 0;
       int read = 0;

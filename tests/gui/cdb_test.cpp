@@ -42,7 +42,7 @@ class CdbInTheWorkbench : public Bench {
 TEST_F(CdbInTheWorkbench, opensWhereItIsDroppedWithWhatStandsInIt) {
   drop(cdb_.root);
   ASSERT_TRUE(waitFor([this] { return said().find("Terrain Valley") != std::string::npos; })) << said();
-  EXPECT_NE(said().find("What the CDB holds"), std::string::npos) << said();
+  EXPECT_NE(said().find("What the sources hold"), std::string::npos) << said();
   EXPECT_NE(said().find("1 by 1 models"), std::string::npos) << said();
   EXPECT_NE(said().find("none for 1 features"), std::string::npos) << said();
   EXPECT_TRUE(waitFor([this] {

@@ -32,7 +32,7 @@ void TerrainController::connectJob() {
     if (!database_) at_.viewport.setNotice(tr("%1...").arg(what));
   });
   connect(&job_, &TerrainJob::found, this,
-          [this](const Findings& notes) { at_.messages.add(tr("What the CDB holds"), notes); });
+          [this](const Findings& notes) { at_.messages.add(tr("What the sources hold"), notes); });
   connect(&job_, &TerrainJob::progressed, &panel_, &Panel::showJob);
   connect(&job_, &TerrainJob::cancelled, &panel_, &Panel::endJob);
   connect(&job_, &TerrainJob::opened, &panel_, &Panel::endJob);

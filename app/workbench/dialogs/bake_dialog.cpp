@@ -17,8 +17,10 @@
 #include <QVBoxLayout>
 
 #include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/cdb/catalogue.h"
 #include "trimtab/terrain/elevation/height_unit.h"
 #include "trimtab/terrain/format/store.h"
+#include "trimtab/terrain/scenery/scenery.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -28,6 +30,9 @@ const QString kImages =
 const QString kElevation = BakeDialog::tr(
     "Elevation and scenery (*.tif *.tiff *.hgt *.dt0 *.dt1 *.dt2 *.img *.asc *.vrt *.zip *.btg *.btg.gz "
     "*.stg);;All files (*)");
+
+/// What of a source brings its own objects; read once, when it is added to the list.
+constexpr int kIsCdb = Qt::UserRole, kIsScenery = Qt::UserRole + 1;
 
 /// A line with buttons that fill it.
 QWidget* withButtons(QLineEdit* line, std::initializer_list<QPushButton*> buttons) {
@@ -46,8 +51,10 @@ BakeDialog::BakeDialog(QWidget* parent)
       sources_(new QListWidget(this)),
       imagery_(new QLineEdit(this)),
       heightUnit_(new QLineEdit(this)),
+      sceneryModels_(new QLineEdit(this)),
       output_(new QLineEdit(this)),
       ignoreChecksums_(new QCheckBox(tr("Read DTED whose chec&ksums do not agree"), this)),
+      ownObjects_(new QCheckBox(tr("&Place what stands on the ground"), this)),
       ownError_(new QCheckBox(tr("Error of the fi&nest patches"), this)),
       error_(new QDoubleSpinBox(this)),
       memory_(new QSpinBox(this)),
@@ -103,7 +110,7 @@ BakeDialog::BakeDialog(QWidget* parent)
   memory_->setSuffix(tr(" MB"));
   memory_->setToolTip(tr("Baking uses no more memory than this, however large the data are"));
 
-  auto* form = new QFormLayout;
+  auto* const form = form_ = new QFormLayout;
   form->addRow(tr("&Elevation,\nscenery"), sourceColumn);
   qobject_cast<QLabel*>(form->labelForField(sourceColumn))->setBuddy(sources_);
   form->addRow(tr("&Unit of heights"), heightUnit_);
@@ -111,6 +118,10 @@ BakeDialog::BakeDialog(QWidget* parent)
   auto* imageRow = makeImagery();
   form->addRow(tr("&Image"), imageRow);
   qobject_cast<QLabel*>(form->labelForField(imageRow))->setBuddy(imagery_);
+  form->addRow(ownObjects_);
+  modelsRow_ = makeSceneryModels();
+  form->addRow(tr("&Shared models"), modelsRow_);
+  qobject_cast<QLabel*>(form->labelForField(modelsRow_))->setBuddy(sceneryModels_);
   form->addRow(ownError_, error_);
   form->addRow(tr("&Memory"), memory_);
   auto* outputRow = withButtons(output_, {browseOutput});
@@ -126,7 +137,7 @@ BakeDialog::BakeDialog(QWidget* parent)
   column->addLayout(form, 1);
   column->addWidget(note_);
   column->addWidget(buttons);
-  for (QLineEdit* line : {imagery_, heightUnit_, output_})
+  for (QLineEdit* line : {imagery_, heightUnit_, sceneryModels_, output_})
     connect(line, &QLineEdit::textChanged, this, &BakeDialog::check);
   resize(640, sizeHint().height());
   check();
@@ -148,6 +159,23 @@ QWidget* BakeDialog::makeImagery() {
   return withButtons(imagery_, {image, folder});
 }
 
+QWidget* BakeDialog::makeSceneryModels() {
+  ownObjects_->setChecked(true);
+  ownObjects_->setToolTip(tr("The objects that scenery's lists place, and the features of a CDB"));
+  connect(ownObjects_, &QCheckBox::toggled, this, &BakeDialog::check);
+  sceneryModels_->setAccessibleName(tr("Shared models"));
+  sceneryModels_->setPlaceholderText(tr("FG_ROOT, or /usr/share/games/flightgear"));
+  sceneryModels_->setToolTip(
+      tr("FlightGear's base package: the folder with Models, which scenery shares. An object whose model is "
+         "not there is left out."));
+  auto* folder = new QPushButton(tr("Folder..."), this);
+  connect(folder, &QPushButton::clicked, this, [this] {
+    const QString chosen = QFileDialog::getExistingDirectory(this, tr("FlightGear's base package"));
+    if (!chosen.isEmpty()) sceneryModels_->setText(chosen);
+  });
+  return withButtons(sceneryModels_, {folder});
+}
+
 /// What the person knows of the files and the files do not say.
 void BakeDialog::makeReading() {
   const QString units = QString::fromStdString(terrain::unitsOfHeight());
@@ -160,7 +188,12 @@ void BakeDialog::makeReading() {
 void BakeDialog::addSources(const QStringList& paths) {
   for (const QString& path : paths) {
     const QString absolute = QFileInfo(path).absoluteFilePath();
-    if (sources_->findItems(absolute, Qt::MatchExactly).isEmpty()) sources_->addItem(absolute);
+    if (!sources_->findItems(absolute, Qt::MatchExactly).isEmpty()) continue;
+    auto* item = new QListWidgetItem(absolute, sources_);
+    const std::filesystem::path file = absolute.toStdString();
+    const bool cdb = terrain::isCdb(file);
+    item->setData(kIsCdb, cdb);
+    item->setData(kIsScenery, !cdb && terrain::isScenery(file));
   }
   if (output_->text().isEmpty() && sources_->count() > 0) {
     const QFileInfo first(sources_->item(0)->text());
@@ -185,9 +218,23 @@ void BakeDialog::removeChosen() {
   check();
 }
 
+void BakeDialog::showObjects() {
+  bool cdb = false, scenery = false;
+  for (int i = 0; i < sources_->count(); ++i) {
+    cdb = cdb || sources_->item(i)->data(kIsCdb).toBool();
+    scenery = scenery || sources_->item(i)->data(kIsScenery).toBool();
+  }
+  form_->setRowVisible(ownObjects_, cdb || scenery);
+  form_->setRowVisible(modelsRow_, scenery);
+  modelsRow_->setEnabled(ownObjects_->isChecked());
+}
+
 void BakeDialog::check() {
+  showObjects();
   const QString output = output_->text().trimmed(), image = imagery_->text().trimmed(),
-                unit = heightUnit_->text().trimmed();
+                unit = heightUnit_->text().trimmed(),
+                models = modelsRow_->isEnabled() && !modelsRow_->isHidden() ? sceneryModels_->text().trimmed()
+                                                                            : QString();
   const QFileInfo folder(output);
   QString problem;
   if (sources_->count() == 0)
@@ -197,6 +244,9 @@ void BakeDialog::check() {
   else if (!unit.isEmpty() && !terrain::metresPerUnit(unit.toStdString()))
     problem = tr("%1 is no unit of heights; they are %2.")
                   .arg(unit, QString::fromStdString(terrain::unitsOfHeight()));
+  else if (!models.isEmpty() && !QFileInfo::exists(models + QStringLiteral("/Models")) &&
+           !QFileInfo::exists(models + QStringLiteral("/Scenery/Models")))
+    problem = tr("%1 is no base package of FlightGear: there is no folder Models in it.").arg(models);
   else if (output.isEmpty())
     problem = tr("Name a folder for the database.");
   else if (folder.exists() && !folder.isDir())
@@ -221,6 +271,9 @@ terrain::BakeOptions BakeDialog::options() const {
   if (const QString unit = heightUnit_->text().trimmed(); !unit.isEmpty())
     options.reading.heightUnit = terrain::metresPerUnit(unit.toStdString());
   options.reading.ignoreChecksums = ignoreChecksums_->isChecked();
+  options.ownObjects = ownObjects_->isChecked();
+  if (const QString models = sceneryModels_->text().trimmed(); !models.isEmpty())
+    options.sceneryModels = models.toStdString();
   if (ownError_->isChecked()) options.maxError = Metres{error_->value()};
   options.memory = Megabytes{double(memory_->value())};
   options.output = output_->text().trimmed().toStdString();

@@ -9,6 +9,7 @@
 
 class QCheckBox;
 class QDoubleSpinBox;
+class QFormLayout;
 class QLabel;
 class QLineEdit;
 class QListWidget;
@@ -34,12 +35,17 @@ class BakeDialog : public QDialog {
   void addFolder();
   void removeChosen();
   QWidget* makeImagery();
+  QWidget* makeSceneryModels();
   void makeReading();
   void check();
+  /// Shows the rows about what stands on the ground where a source brings such.
+  void showObjects();
 
+  QFormLayout* form_;
+  QWidget* modelsRow_;
   QListWidget* sources_;
-  QLineEdit *imagery_, *heightUnit_, *output_;
-  QCheckBox *ignoreChecksums_, *ownError_;
+  QLineEdit *imagery_, *heightUnit_, *sceneryModels_, *output_;
+  QCheckBox *ignoreChecksums_, *ownObjects_, *ownError_;
   QDoubleSpinBox* error_;
   QSpinBox* memory_;
   QLabel* note_;

@@ -36,7 +36,9 @@ void TerrainJob::open(const std::filesystem::path& source, const std::string& or
   start(source, tr("Opening %1").arg(QString::fromStdString(source.filename().string())),
         [this, source, origin](const terrain::Progress& progress) {
           if (scene::isOsgScene(source)) return scene::openOsgScene(source, origin);
-          tell({source});
+          terrain::BakeOptions asked;
+          asked.sources = {source};
+          tell(asked);
           return terrain::openOrBake(source, terrain::cacheFolder(), progress,
                                      terrain::BakeOptions{}.trianglesPerNode,
                                      terrain::ObjectsToBake{{}, models::readModel});
@@ -73,13 +75,13 @@ void TerrainJob::bake(terrain::BakeOptions options) {
   start(output, tr("Baking %1").arg(QString::fromStdString(output.filename().string())),
         [this, options = std::move(options)](const terrain::Progress& progress) mutable {
           options.progress = progress;
-          tell(options.sources);
+          tell(options);
           return terrain::bake(options);
         });
 }
 
-void TerrainJob::tell(const std::vector<std::filesystem::path>& sources) {
-  Findings notes = terrain::aboutSources(sources);
+void TerrainJob::tell(const terrain::BakeOptions& options) {
+  Findings notes = terrain::aboutSources(options);
   if (!notes.empty())
     QMetaObject::invokeMethod(
         this, [this, notes = std::move(notes)] { emit found(notes); }, Qt::QueuedConnection);

@@ -39,7 +39,7 @@ class TerrainJob : public QObject {
 
  signals:
   void started(const QString& what);
-  /// Notes of what CDBs hold that are about to be baked.
+  /// Notes of what CDBs and scenery hold that are about to be baked.
   void found(const trimtab::Findings& notes);
   void progressed(double fraction, const QString& what);
   /// The findings are what is worth knowing about how it was opened or baked.
@@ -50,7 +50,7 @@ class TerrainJob : public QObject {
  private:
   void stop();
   /// Emits found() from a job's thread.
-  void tell(const std::vector<std::filesystem::path>& sources);
+  void tell(const terrain::BakeOptions& options);
 
   std::filesystem::path source_;
   std::jthread thread_;                      ///< the last job's; it joins the thread before it

@@ -74,12 +74,12 @@ std::vector<std::string> cdbStamps(const fs::path& folder) {
   return stamps;
 }
 
-Findings aboutSources(const std::vector<fs::path>& sources, const std::optional<fs::path>& sceneryModels) {
+Findings aboutSources(const BakeOptions& options) {
   Findings notes;
-  for (const fs::path& folder : sources) {
+  for (const fs::path& folder : options.sources) {
     Findings warnings;  // the bake reports them
-    if (isScenery(folder)) {
-      const auto objects = readSceneryObjects(folder, baseFolders(sceneryModels), warnings);
+    if (options.ownObjects && isScenery(folder)) {
+      const auto objects = readSceneryObjects(folder, baseFolders(options.sceneryModels), warnings);
       for (Finding& note : aboutSceneryObjects(folder, objects)) notes.push_back(std::move(note));
     }
     if (!isCdb(folder)) continue;

@@ -94,7 +94,7 @@ class SanDiego : public ::testing::Test {
     ASSERT_TRUE(baked) << toString(baked.findings());
     database_ = *baked;
     said_ = toString(baked.findings());
-    about_ = toString(terrain::aboutSources(options.sources));
+    about_ = toString(terrain::aboutSources(options));
   }
   static void TearDownTestSuite() {
     database_.reset();

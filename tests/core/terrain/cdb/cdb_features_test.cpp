@@ -317,8 +317,8 @@ TEST_F(CdbFeaturesTest, areBakedOntoTheirGround) {
   // A ball of 8 m on its south pole: three times as high, it reaches 24 m up.
   EXPECT_NEAR(radius[0], 8, 0.1f);
   EXPECT_NEAR(radius[2], 24, 0.1f);
-  EXPECT_NE(toString(aboutSources(options.sources)).find("4 by 2 models"), std::string::npos)
-      << toString(aboutSources(options.sources));
+  EXPECT_NE(toString(aboutSources(options)).find("4 by 2 models"), std::string::npos)
+      << toString(aboutSources(options));
 }
 
 }  // namespace

@@ -43,10 +43,9 @@ struct BakeOptions {
   std::filesystem::path output;
   Progress progress;
 };
-/// Returns notes of what each CDB and each scenery among the sources holds to stand on the ground, and of
-/// what is not drawn of it. Reads tables and lists.
-Findings aboutSources(const std::vector<std::filesystem::path>& sources,
-                      const std::optional<std::filesystem::path>& sceneryModels = {});
+/// Returns notes of what each CDB among the sources holds, of what stands on each scenery if that is wanted,
+/// and of what is not drawn of it. Reads tables and lists.
+Findings aboutSources(const BakeOptions& options);
 
 /// Bakes the sources and opens the database. The bake works in a folder beside `output` (".NAME.work") and
 /// renames its result to `output` when it is complete. If a bake is interrupted, the folder stays: the same
