@@ -18,6 +18,7 @@
 #include "trimtab/preset/choices.h"
 #include "trimtab/scene/error_meter.h"
 #include "trimtab/scene/gl_report.h"
+#include "trimtab/scene/osg_database.h"
 #include "worst_frames.h"
 
 namespace trimtab::harness {
@@ -314,6 +315,10 @@ Result<Results> Run::all() {
       results.notes.push_back(preset.name + " draws another form of the terrain than " +
                               plan_.presets.front().name +
                               ": each is held against the finest levels of its own.");
+  if (plan_.cases.size() > 1 && dynamic_cast<const scene::OsgDatabase*>(plan_.terrain.get()) != nullptr)
+    results.notes.push_back(
+        "OpenSceneGraph culls its scene itself: all cases of culling draw the same image, and differences "
+        "between their times are noise.");
   Findings failed;
   for (const auto& flight : plan_.flights) {
     rows_.push_back(sampledRows(flight.flight, *plan_.terrain, plan_.frames));

@@ -7,6 +7,7 @@
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/sha256.h"
+#include "trimtab/scene/osg_database.h"
 #include "trimtab/units/number.h"
 
 namespace trimtab::harness {
@@ -48,13 +49,16 @@ std::string presetDigest(const ValidatedParameters& parameters) {
 /// Returns what a folder's measurements depend on, one text for each thing, so that differences can be named.
 Json identity(const Plan& plan, const std::string& machine) {
   const terrain::TerrainInfo& info = plan.terrain->info();
+  const bool foreign = dynamic_cast<const scene::OsgDatabase*>(plan.terrain.get()) != nullptr;
+  const std::string kind = foreign
+                               ? "a scene of OpenSceneGraph of " + std::to_string(info.bytes) + " bytes"
+                               : std::to_string(info.columns) + " x " + std::to_string(info.rows) + " posts";
   Json json = {
       {"format", "trimtab-bench-plan"},
       {"version", plan.version},
       {"machine", machine},
-      {"terrain", plan.terrainName + ", " + std::to_string(info.columns) + " x " + std::to_string(info.rows) +
-                      " posts from " + numberText(info.southWest.latitude.value()) + ", " +
-                      numberText(info.southWest.longitude.value()) + ", checksum " + info.checksum}};
+      {"terrain", plan.terrainName + ", " + kind + " from " + numberText(info.southWest.latitude.value()) +
+                      ", " + numberText(info.southWest.longitude.value()) + ", checksum " + info.checksum}};
   std::string flights, presets, cases;
   const auto append = [](std::string& list, const std::string& text) {
     list += (list.empty() ? "" : ", ") + text;

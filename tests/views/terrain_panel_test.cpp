@@ -60,6 +60,23 @@ class TerrainPanelTest : public testing::Test {
   TerrainPanel panel_{draft_};
 };
 
+TEST_F(TerrainPanelTest, saysOfAnOsgSceneWhatItIsAndNothingOfPosts) {
+  TerrainSummary scene = someTerrain();
+  scene.osgScene = true;
+  scene.columns = scene.rows = 2;
+  scene.tiles = scene.patches = {};
+  panel_.setTerrain(scene);
+  EXPECT_TRUE(says(QStringLiteral("A scene of OpenSceneGraph")));
+  EXPECT_TRUE(says(QStringLiteral("andes.tif")));
+  EXPECT_FALSE(says(QStringLiteral("2 × 2")));
+  EXPECT_FALSE(says(QStringLiteral("a post")));
+  EXPECT_TRUE(says(QStringLiteral("OpenSceneGraph chooses its levels")));
+  EXPECT_FALSE(says(QStringLiteral("In memory")));
+  EXPECT_FALSE(table().isVisible());
+  panel_.setTerrain(someTerrain());
+  EXPECT_TRUE(table().isVisible());
+}
+
 TEST_F(TerrainPanelTest, saysWhatToDoWhereThereIsNoTerrain) {
   EXPECT_TRUE(says(QStringLiteral("bake")));
   EXPECT_FALSE(table().isVisible());

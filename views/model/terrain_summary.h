@@ -18,6 +18,7 @@ struct TerrainLevel {
 /// What the dock shows about a terrain.
 struct TerrainSummary {
   QString name, source;
+  bool osgScene = false;  ///< drawn by OpenSceneGraph as it is: it has no posts and no levels of ours
   std::uint64_t columns = 0, rows = 0, voidsFilled = 0, bytes = 0;
   double postM = 0;  ///< distance of posts along a meridian
   double lowestM = 0, highestM = 0, southDeg = 0, westDeg = 0, northDeg = 0, eastDeg = 0;

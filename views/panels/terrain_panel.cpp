@@ -35,14 +35,19 @@ QString degrees(double value, const QString& positive, const QString& negative) 
 QString summaryOf(const TerrainSummary& t) {
   const auto number = [](double value) { return numberText(value, 0); };
   QString text = QStringLiteral("<b>%1</b> ").arg(t.name.toHtmlEscaped());
-  text += TerrainPanel::tr("%1 × %2 posts, %3 m apart; %4 to %5 m high")
-              .arg(number(static_cast<double>(t.columns)), number(static_cast<double>(t.rows)),
-                   numberText(t.postM, t.postM < 10 ? 2 : 1), number(t.lowestM), number(t.highestM));
+  if (t.osgScene)
+    text += TerrainPanel::tr("A scene of OpenSceneGraph, drawn as it is: it has no posts<br>%1")
+                .arg(t.source.toHtmlEscaped());
+  else
+    text += TerrainPanel::tr("%1 × %2 posts, %3 m apart; %4 to %5 m high")
+                .arg(number(static_cast<double>(t.columns)), number(static_cast<double>(t.rows)),
+                     numberText(t.postM, t.postM < 10 ? 2 : 1), number(t.lowestM), number(t.highestM));
   text += TerrainPanel::tr("<br>%1 to %2, %3 to %4")
               .arg(degrees(t.southDeg, TerrainPanel::tr("N"), TerrainPanel::tr("S")),
                    degrees(t.northDeg, TerrainPanel::tr("N"), TerrainPanel::tr("S")),
                    degrees(t.westDeg, TerrainPanel::tr("E"), TerrainPanel::tr("W")),
                    degrees(t.eastDeg, TerrainPanel::tr("E"), TerrainPanel::tr("W")));
+  if (t.osgScene) return text;
   const double posts = static_cast<double>(t.columns) * static_cast<double>(t.rows);
   text += TerrainPanel::tr("<br>%1 on disk").arg(megabytes(t.bytes));
   if (posts > 0)
@@ -159,9 +164,15 @@ void TerrainPanel::showFrame(const LiveFrame& frame) {
 }
 
 void TerrainPanel::refresh() {
-  table_->setVisible(terrain_.has_value());
+  table_->setVisible(terrain_ && !terrain_->osgScene);
   drawn_->setVisible(terrain_.has_value());
   if (!terrain_) return paging_->hide();
+  if (terrain_->osgScene) {
+    drawn_->setText(
+        tr("OpenSceneGraph chooses its levels by LOD scale and allowed error; it has read %1 pages.")
+            .arg(numberText(static_cast<double>(frame_.drawn().paging.pagesRead), 0)));
+    return paging_->hide();
+  }
   const bool patches = frame_.drawn().patches || terrain_->tiles.empty();
   const std::vector<TerrainLevel>& levels = patches ? terrain_->patches : terrain_->tiles;
   if (shownPatches_ != patches) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "app/workbench/dialogs/bake_dialog.h"
+#include "app/workbench/dialogs/origin_dialog.h"
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/jobs/feed.h"
 #include "app/workbench/viewport/viewport.h"
@@ -45,6 +46,7 @@ void TerrainController::connectJob() {
     at_.viewport.setNotice(hint);
   });
   connect(&job_, &TerrainJob::failed, this, [this, hint](const Findings& findings) {
+    if (scene::lacksOrigin(findings)) return askOrigin();
     at_.messages.add(tr("The terrain cannot be opened"), findings);
     at_.viewport.setNotice(hint);
   });
@@ -54,6 +56,15 @@ void TerrainController::connectJob() {
 void TerrainController::open(const QString& source, const QString& origin) {
   asked_ = QFileInfo(source).absoluteFilePath();
   job_.open(asked_.toStdString(), origin.toStdString());
+}
+
+void TerrainController::askOrigin() {
+  auto* const dialog = new OriginDialog(asked_, &at_.window);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &OriginDialog::given, this,
+          [this, file = asked_](const QString& origin) { open(file, origin); });
+  connect(dialog, &QDialog::rejected, &job_, &TerrainJob::cancelled);
+  dialog->open();
 }
 
 void TerrainController::openSample() {

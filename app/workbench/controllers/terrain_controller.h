@@ -47,6 +47,8 @@ class TerrainController : public QObject {
 
  private:
   void connectJob();
+  /// Asks where the flat scene that was asked for is, and opens it there.
+  void askOrigin();
   void use(std::shared_ptr<const terrain::Database> database, const Findings& findings);
   void reportDamage();
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "trimtab/scene/osg_database.h"
 #include "trimtab/terrain/format/level_report.h"
 #include "trimtab/terrain/format/patch_terrain.h"
 #include "trimtab/terrain/format/static_lod_terrain.h"
@@ -24,6 +25,7 @@ views::TerrainSummary summaryOf(const terrain::Database& database) {
   const double metresPerDegree = 111.2e3;
   views::TerrainSummary summary{.name = QString::fromStdString(info.name),
                                 .source = QString::fromStdString(info.source),
+                                .osgScene = dynamic_cast<const scene::OsgDatabase*>(&database) != nullptr,
                                 .columns = info.columns,
                                 .rows = info.rows,
                                 .voidsFilled = info.voidsFilled,

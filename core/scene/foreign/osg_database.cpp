@@ -21,6 +21,8 @@
 namespace trimtab::scene {
 namespace {
 
+constexpr const char* kWithoutOrigin = "flat coordinates without an origin";
+
 constexpr std::array kEndings{".ive", ".osgb", ".osgt", ".osg", ".osgx", ".txp"};
 
 osg::Vec3d toOsg(Vec3 v) {
@@ -199,7 +201,7 @@ Findings OpenScene::open(const std::optional<GeodeticPosition>& origin) {
         "geocentric coordinates (a CoordinateSystemNode with an ellipsoid), or the latitude and "
         "longitude of the place where flat coordinates are 0: give --origin LAT,LON if they are metres "
         "east, north and up",
-        "flat coordinates without an origin")};
+        kWithoutOrigin)};
   } else {
     index_.frame = LocalFrame(*origin);
     for (Vec3& p : vertices.all) p = index_.frame.toEcef(p);
@@ -266,6 +268,10 @@ Result<std::shared_ptr<const terrain::Database>> openOsgScene(const std::filesys
   const Result<GeodeticPosition> place = originFrom(origin);
   if (!place) return place.findings();
   return OsgDatabase::open(file, *place);
+}
+
+bool lacksOrigin(const Findings& findings) {
+  return findings.size() == 1 && findings.front().found == kWithoutOrigin;
 }
 
 Result<GeodeticPosition> originFrom(const std::string& text) {

@@ -7,7 +7,9 @@
 
 #include "app/harness/heat_colour.h"
 #include "mountain_plan.h"
+#include "tests/core/scene/foreign/paged_scene.h"
 #include "trimtab/host/flight.h"
+#include "trimtab/scene/osg_database.h"
 #include "trimtab/session/session.h"
 
 namespace trimtab::harness {
@@ -102,6 +104,37 @@ TEST(Run, givesTheSameErrorsAndCountsInAnotherFolderAndWithOtherRepeats) {
   ASSERT_TRUE(once && again) << toString(once.findings()) << toString(again.findings());
   EXPECT_EQ(withoutTimes(*once), withoutTimes(*again));
   EXPECT_FALSE(again->units.front().skips.empty());
+}
+
+TEST(Run, saysThatCasesAreOneImageOverAnOsgScene) {
+  const test::ScratchDir dir;
+  const test::PagedScene scene(*hills(), dir.path(), ".osgb", true);
+  const auto opened = scene::OsgDatabase::open(scene.file(), {});
+  ASSERT_TRUE(opened) << toString(opened.findings());
+  Plan plan = smallPlan();
+  const auto said = [](const Results& results) {
+    for (const std::string& note : results.notes)
+      if (note.find("draw the same image") != std::string::npos) return true;
+    return false;
+  };
+  plan.presets.pop_back();
+  plan.frames = 1;
+  plan.worst = 0;
+  const auto ours = run(plan, dir / "ours");
+  ASSERT_TRUE(ours) << toString(ours.findings());
+  EXPECT_FALSE(said(*ours));
+  plan.terrain = *opened;
+  const auto theirs = run(plan, dir / "theirs");
+  ASSERT_TRUE(theirs) << toString(theirs.findings());
+  EXPECT_TRUE(said(*theirs));
+  ASSERT_EQ(theirs->units.size(), 3u);
+  for (const Unit& unit : theirs->units) {
+    EXPECT_EQ(unit.frames[0].counts.triangles, theirs->units[0].frames[0].counts.triangles);
+    EXPECT_EQ(unit.frames[0].error.flip, theirs->units[0].frames[0].error.flip);
+  }
+  plan.terrain = hills();
+  const auto refused = run(plan, dir / "theirs");
+  EXPECT_NE(toString(refused.findings()).find("a scene of OpenSceneGraph"), std::string::npos);
 }
 
 TEST(Run, goesOnWhereItWasCancelled) {

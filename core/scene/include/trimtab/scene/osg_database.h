@@ -35,6 +35,8 @@ Result<GeodeticPosition> originFrom(const std::string& text);
 /// Opens a scene with what the option --origin says; empty: nothing.
 Result<std::shared_ptr<const terrain::Database>> openOsgScene(const std::filesystem::path& file,
                                                               const std::string& origin);
+/// Tells whether a scene was refused because its coordinates are flat and nobody said where they are 0.
+bool lacksOrigin(const Findings& findings);
 inline constexpr const char* kOriginHelp =
     "LAT,LON where coordinates of a flat OpenSceneGraph scene are 0; they are metres east, north and up";
 
