@@ -22,6 +22,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
+std::string stampOf(const fs::path& file) {
+  std::error_code unknown;
+  return file.string() + ' ' + std::to_string(fs::file_size(file, unknown)) + ' ' +
+         std::to_string(fs::last_write_time(file, unknown).time_since_epoch().count());
+}
+
 /// Returns the stamps of all files in some folders but `list`, a line each.
 std::string stampsIn(const std::set<fs::path>& folders, const fs::path& list) {
   std::set<std::string> stamps;
@@ -30,9 +36,7 @@ std::string stampsIn(const std::set<fs::path>& folders, const fs::path& list) {
     for (fs::directory_iterator file(folder, error), end; !error && file != end; file.increment(error)) {
       std::error_code unknown;
       if (!file->is_regular_file(unknown) || file->path() == list) continue;
-      const auto time = file->last_write_time(unknown).time_since_epoch().count();
-      stamps.insert(file->path().string() + ' ' + std::to_string(file->file_size(unknown)) + ' ' +
-                    std::to_string(time));
+      stamps.insert(stampOf(file->path()));
     }
   std::string key;
   for (const std::string& stamp : stamps) key += '\n' + stamp;
@@ -51,12 +55,30 @@ Result<std::string> keyOf(const fs::path& list) {
   return "\nobjects " + hexadecimal(checksum(*text)) + stampsIn(folders, list);
 }
 
-/// Returns the stamps of the folders that hold what scenery's lists place.
+/// Returns the folder with everything that a model list (`.xml`) may name: the outermost Models above it.
+fs::path modelsAbove(const fs::path& list) {
+  fs::path outermost = list.parent_path();
+  for (fs::path folder = outermost; folder.has_relative_path(); folder = folder.parent_path())
+    if (folder.filename() == "Models") outermost = folder;
+  return outermost;
+}
+
+/// Returns the stamps of the folders that hold what scenery's lists place, and what model lists name.
 std::string keyOfPlaced(const fs::path& scenery) {
   Findings ignored;  // the bake reports them
-  std::set<fs::path> folders;
-  for (const ModelFile& model : placedOn(scenery, {}, ignored).models)
-    folders.insert(fs::path(model.file).parent_path());
+  std::set<fs::path> folders, lists;
+  for (const ModelFile& model : placedOn(scenery, {}, ignored).models) {
+    const fs::path file = model.file;
+    folders.insert(file.parent_path());
+    if (file.extension() == ".xml") lists.insert(modelsAbove(file));
+  }
+  for (const fs::path& models : lists) {
+    folders.insert(models);
+    std::error_code error, unknown;
+    for (fs::recursive_directory_iterator below(models, error), end; !error && below != end;
+         below.increment(error))
+      if (below->is_directory(unknown)) folders.insert(below->path());
+  }
   return stampsIn(folders, {});
 }
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 #include <unordered_map>
 
+#include "stg_lines.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/scenery/scenery.h"
 #include "trimtab/units/finding_list.h"
@@ -24,7 +24,6 @@ constexpr double kNoElevation = -9999;
 constexpr double kSameTurn = 0.01;
 /// So many models are tilted in different ways; each is another model in flight.
 constexpr std::size_t kMostTilted = 1000;
-constexpr std::size_t kMostLineBytes = 4096;
 
 bool staysBelow(const fs::path& path) {
   return !path.empty() && path.is_relative() && std::find(path.begin(), path.end(), "..") == path.end();
@@ -40,26 +39,22 @@ class ListReader {
     if (!text) return;  // the scenery's own reader reports it
     objects_.list.tables.push_back({list.string(), objects_.list.placements.size()});
     list_ = list;
-    line_ = 0;
-    std::istringstream in(*text);
-    for (std::string line; std::getline(in, line);) {
-      ++line_;
-      if (line.size() > kMostLineBytes) {
-        leaveOut("line", "at most " + std::to_string(kMostLineBytes) + " bytes", std::to_string(line.size()));
-        continue;
-      }
-      std::istringstream words(line.substr(0, line.find('#')));
-      std::string verb;
-      if (!(words >> verb) || verb == "OBJECT_BASE" || verb == "OBJECT") continue;
+    forEachStgLine(*text, [this](StgLine& line) {
+      line_ = line.number;
+      if (line.tooLong())
+        return leaveOut("line", "at most " + std::to_string(StgLine::kMostBytes) + " bytes",
+                        std::to_string(line.bytes));
+      const std::string& verb = line.verb;
+      if (verb == "OBJECT_BASE" || verb == "OBJECT") return;
       const bool aboveGround = verb.ends_with("_AGL");
       const std::string kind = verb.substr(0, verb.size() - (aboveGround ? 4 : 0));
       if (kind == "OBJECT_SIGN")
         ++objects_.signs;
       else if (kind == "OBJECT_SHARED" || kind == "OBJECT_STATIC")
-        place(words, verb, kind == "OBJECT_SHARED", aboveGround);
+        place(line.words, verb, kind == "OBJECT_SHARED", aboveGround);
       else
         ++objects_.others[verb];
-    }
+    });
   }
 
  private:

@@ -4,8 +4,8 @@
 #include <map>
 #include <mutex>
 #include <set>
-#include <sstream>
 
+#include "stg_lines.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/terrain/grid/parallel.h"
 
@@ -45,39 +45,34 @@ fs::path onDisk(const fs::path& named) {
 }
 
 void readList(const fs::path& list, Inventory& found) {
-  constexpr std::size_t kMostLine = 4096;
   found.lists.insert(list);
   const Result<std::string> text = readWhole(list);
   if (!text) {
     found.findings.insert(found.findings.end(), text.findings().begin(), text.findings().end());
     return;
   }
-  std::istringstream in(*text);
-  std::size_t number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    const std::string where = list.string() + ":" + std::to_string(number);
-    if (line.size() > kMostLine) continue;
-    std::istringstream words(line.substr(0, line.find('#')));
-    std::string verb, name;
-    if (!(words >> verb) || (verb != "OBJECT_BASE" && verb != "OBJECT")) continue;
-    words >> name;
+  forEachStgLine(*text, [&](StgLine& line) {
+    const std::string where = list.string() + ":" + std::to_string(line.number);
+    const std::string& verb = line.verb;
+    if (verb != "OBJECT_BASE" && verb != "OBJECT") return;  // objects' own reader reports lines too long
+    std::string name;
+    line.words >> name;
     // A list speaks for its own folder: nothing outside it is opened.
     if (name.empty() || name.find('/') != std::string::npos || !isTile(name)) {
       found.findings.push_back(about(Severity::warning, where, verb,
                                      "the name of a .btg in the list's own folder",
                                      name.empty() ? "nothing" : name));
-      continue;
+      return;
     }
     const fs::path file = onDisk(list.parent_path() / name);
     if (file.empty()) {
       found.missing.push_back(name);
       found.findings.push_back(about(Severity::warning, where, verb,
                                      name + " or " + name + ".gz beside the list", "neither, left out"));
-      continue;
+      return;
     }
     found.tiles.emplace(file, verb == "OBJECT");
-  }
+  });
 }
 
 bool isAirportName(const fs::path& file) {

@@ -11,6 +11,7 @@
 #include "trimtab/scene/offscreen.h"
 #include "trimtab/scene/renderer.h"
 #include "trimtab/terrain/bake/bake.h"
+#include "trimtab/terrain/bake/cache.h"
 #include "trimtab/terrain/format/object_terrain.h"
 
 /// What stands on FlightGear scenery: made lists and models, and the shared scenery where it is there.
@@ -198,6 +199,27 @@ TEST_F(SceneryObjectsTest, standUprightAtTheirHeightAndHeading) {
     EXPECT_NEAR(highest, pose.empty() ? 10 : 0.1, 0.11);
     fs::remove_all(options.output);
   }
+}
+
+TEST_F(SceneryObjectsTest, areBakedAnewWhereAFileChangedThatAModelListNames) {
+  list("OBJECT_SHARED Models/Power/mast.xml 7.1 50.55 130 30\n");
+  fs::create_directories(dir_ / "fg/Models/Power");
+  fs::create_directories(dir_ / "fg/Models/Misc");
+  const fs::path part = dir_ / "fg/Models/Misc/part.ac";
+  test::writeFile(part, mast());
+  test::writeFile(dir_ / "fg/Models/Power/mast.xml",
+                  "<PropertyList><path>Models/Misc/part.ac</path></PropertyList>");
+  const auto vertices = [&] {
+    const auto opened =
+        terrain::openOrBake(dir_ / "fg", dir_ / "cache", {}, 2000, terrain::ObjectsToBake{{}, readModel});
+    return opened && (*opened)->objects() ? (*opened)->objects()->vertices.size() : 0;
+  };
+  const std::size_t before = vertices();
+  EXPECT_GT(before, 0u);
+  EXPECT_EQ(vertices(), before);
+  EXPECT_EQ(test::namesIn(dir_ / "cache").size(), 1u);
+  test::writeFile(part, broadMast());
+  EXPECT_NE(vertices(), before);
 }
 
 /// The shared scenery, whose lists are read here a second time, with a mast for each model that they name.

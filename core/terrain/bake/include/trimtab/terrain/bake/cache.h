@@ -25,7 +25,7 @@ struct ObjectsToBake {
 /// Opens `source` if it is a database. Otherwise bakes it into `cacheFolder` and opens the result, or opens
 /// what an earlier call baked there. The cache key covers path, size and time of every source file and of
 /// every file that GDAL reads with it, every file of a CDB, every file in the folders of models that scenery
-/// places, and `trianglesPerNode` if the source is scenery.
+/// places and of what its model lists (`.xml`) may name, and `trianglesPerNode` if the source is scenery.
 /// With a list of `objects` it covers the bytes of the list, and size and time of every file in the folders
 /// of its models.
 Result<std::shared_ptr<const Database>> openOrBake(const std::filesystem::path& source,
