@@ -76,7 +76,7 @@ void TerrainController::askOpenFile() {
   const QString picked = QFileDialog::getOpenFileName(
       &at_.window, tr("Open terrain"), folderOfRecent(QStringLiteral("terrain")),
       tr("Elevation and scenery (*.tif *.tiff *.hgt *.dt0 *.dt1 *.dt2 *.img *.zip *.btg *.btg.gz *.stg);;"
-         "OpenSceneGraph scenes (*.ive *.osgb *.osgt *.osg *.txp);;"
+         "OpenSceneGraph scenes (*.ive *.osgb *.osgt *.osg *.txp *.flt);;"
          "All files (*)"));
   if (!picked.isEmpty()) open(picked);
 }

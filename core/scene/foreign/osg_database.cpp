@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <list>
 #include <mutex>
@@ -259,6 +260,12 @@ bool isOsgScene(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
+  if (ending == ".flt") {
+    // Rasters of floats have this ending, too; an OpenFlight file begins with its header, record 1.
+    std::array<char, 2> record{};
+    return std::ifstream(file, std::ios::binary).read(record.data(), record.size()) &&
+           record == std::array<char, 2>{0, 1};
+  }
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 

@@ -270,6 +270,26 @@ TEST_F(OsgScene, withFlatCoordinatesNeedsAnOrigin) {
   EXPECT_LT(differing(flat, picture(r)), 1000u) << "the same ground in geocentric coordinates";
 }
 
+TEST_F(OsgScene, mayBeOpenFlightButNoRasterOfThatEnding) {
+  const osg::ref_ptr<osg::Geode> roof = new osg::Geode;
+  const osg::ref_ptr<osg::Geometry> side = new osg::Geometry;
+  const osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
+  for (const osg::Vec3& at : {osg::Vec3(-300, 0, 50), osg::Vec3(300, 0, 50), osg::Vec3(0, 400, 50)})
+    corners->push_back(at);
+  side->setVertexArray(corners);
+  side->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLES, 0, 3));
+  roof->addDrawable(side);
+  const auto file = dir.path() / "roof.flt";
+  ASSERT_TRUE(osgDB::writeNodeFile(*roof, file.string()));
+  EXPECT_TRUE(scene::isOsgScene(file));
+  EXPECT_TRUE(scene::lacksOrigin(scene::openOsgScene(file, "").findings()));
+  const auto opened = scene::openOsgScene(file, "36,128");
+  ASSERT_TRUE(opened) << toString(opened.findings());
+  EXPECT_NEAR((*opened)->heightAt(Degrees{36.001}, Degrees{128})->value(), 50, 0.1);
+  std::ofstream(dir.path() / "grid.flt", std::ios::binary) << std::string(64, '\0');
+  EXPECT_FALSE(scene::isOsgScene(dir.path() / "grid.flt"));
+}
+
 TEST_F(OsgScene, namesWhatIsNotThere) {
   open();
   FrameResult result;

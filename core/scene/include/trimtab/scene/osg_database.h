@@ -26,7 +26,7 @@ class OsgDatabase : public terrain::Database {
   virtual bool geocentric() const = 0;
 };
 
-/// Tells by its name whether a file is a scene of OpenSceneGraph.
+/// Tells by its name, and of a .flt by its first bytes, whether a file is a scene of OpenSceneGraph.
 bool isOsgScene(const std::filesystem::path& file);
 
 /// Reads "LAT,LON", degrees, as the origin of a scene with flat coordinates.
