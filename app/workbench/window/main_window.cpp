@@ -391,7 +391,7 @@ void MainWindow::welcome() {
             [this](const QString& path) { controllers_.flight->open(path); });
   Welcome::Group open{
       tr("Open or import"),
-      {{tr("A terrain"), tr("elevation files, scenery or a database"),
+      {{tr("A terrain"), tr("a folder: elevation, scenery, CDB, database"),
         [this] { controllers_.terrain->askOpenFolder(); }},
        {tr("A preset"), tr("a JSON file of this program"), [this] { controllers_.document->askOpen(); }},
        {tr("A session"), tr("what was saved together"), [this] { sessions_->askOpen(); }}}};

@@ -35,10 +35,10 @@ Parsed parseOptions(const QStringList& arguments) {
   const QCommandLineOption version({"v", "version"}, "Show the version.");
   const QCommandLineOption preset("preset", "Open this preset: a file, or the name of a shipped preset.",
                                   "P");
-  const QCommandLineOption terrain(
-      "terrain",
-      "Open this terrain: an elevation file, a folder, scenery, a database or an OpenSceneGraph scene.",
-      "DB");
+  const QCommandLineOption terrain("terrain",
+                                   "Open this terrain: an elevation file, a folder, scenery, a CDB, a "
+                                   "database, or a scene of OpenSceneGraph or OpenFlight.",
+                                   "DB");
   const QCommandLineOption origin("origin", scene::kOriginHelp, "LAT,LON");
   const QCommandLineOption listen("listen", "Listen for a host on this UDP port.", "PORT");
   const QCommandLineOption bind("bind", "Listen on the interface of this address; 0.0.0.0: every one.",
