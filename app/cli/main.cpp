@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "app/link/stop_signals.h"
+#include "app/manual/cli11_command.h"
 #include "commands.h"
 #include "progress.h"
 #include "trimtab/preset/file_io.h"
@@ -48,6 +49,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Trimtab: tune culling and level of detail of image generators"};
   app.set_version_flag("--version", TRIMTAB_VERSION);
   app.require_subcommand(1);
+  trimtab::manual::addManualOption(app, "trimtab-cli");
   int exitCode = trimtab::cli::kDone;
   trimtab::cli::addPreset(app, exitCode);
   trimtab::cli::addDecide(app, exitCode);

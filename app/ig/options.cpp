@@ -8,6 +8,7 @@
 #include <map>
 
 #include "app/link/log_options.h"
+#include "app/manual/cli11_command.h"
 #include "trimtab/host/protocol_names.h"
 #include "trimtab/scene/osg_database.h"
 
@@ -36,6 +37,7 @@ std::optional<Options> parseOptions(int argc, char** argv, int& exitCode) {
       "Trimtab's reference image generator: draws what a host or a flight asks for, as an exported preset "
       "says"};
   app.set_version_flag("--version", TRIMTAB_VERSION);
+  manual::addManualOption(app, "trimtab-ig");
   app.add_option("--preset", options.preset, "exported preset, edited preset, or a shipped one's name")
       ->required();
   app.add_option("--terrain", options.terrain,

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "app/manual/command.h"
 #include "trimtab/scene/osg_database.h"
 
 namespace trimtab::workbench {
@@ -23,6 +24,26 @@ int print(const QString& text) {
 int complain(const QString& text) {
   std::fprintf(stderr, "trimtab: %s\n", qPrintable(text));
   return kUsage;
+}
+
+/// The command line as the manual writes it.
+manual::Command commandOf(const QString& text, const QList<QCommandLineOption>& options,
+                          const QString& file) {
+  manual::Command command{"trimtab", text.toStdString(), {}, {}};
+  if (command.text.ends_with('.')) command.text.pop_back();
+  manual::Argument& files = command.arguments.emplace_back();
+  files.names = {"FILE"};
+  files.text = file.toStdString();
+  files.repeats = true;
+  for (const QCommandLineOption& option : options) {
+    manual::Argument& a = command.arguments.emplace_back();
+    for (const QString& name : option.names())
+      a.names.push_back((name.size() == 1 ? "-" : "--") + name.toStdString());
+    a.value = option.valueName().toStdString();
+    a.text = option.description().toStdString();
+    for (const QString& value : option.defaultValues()) a.unset = value.toStdString();
+  }
+  return command;
 }
 
 }  // namespace
@@ -55,10 +76,14 @@ Parsed parseOptions(const QStringList& arguments) {
       "export", "Write an export (.json, .xml or .ini), together with the screenshot if there is one.",
       "OUT");
   const QCommandLineOption size("size", "Size of the window.", "WxH");
-  parser.addPositionalArgument(
-      "FILE", "Open it: a session, preset, terrain, flight, head log, rules or results.", "[FILE...]");
-  parser.addOptions({help, version, preset, terrain, origin, listen, bind, from, fly, head, screenshot, after,
-                     exportTo, size});
+  QCommandLineOption writeManual("write-manual", {}, "DIR");
+  writeManual.setFlags(QCommandLineOption::HiddenFromHelp);
+  const QString file = "Open it: a session, preset, terrain, flight, head log, rules or results.";
+  parser.addPositionalArgument("FILE", file, "[FILE...]");
+  const QList<QCommandLineOption> shown{help, version, preset, terrain,    origin, listen,   bind,
+                                        from, fly,     head,   screenshot, after,  exportTo, size};
+  parser.addOptions(shown);
+  parser.addOption(writeManual);
 
   Parsed parsed;
   Options& options = parsed.options;
@@ -74,12 +99,18 @@ Parsed parseOptions(const QStringList& arguments) {
     parsed.exitCode = print(QStringLiteral("trimtab " TRIMTAB_VERSION "\n"));
     return parsed;
   }
-  for (const QString& file : parser.positionalArguments()) {
-    if (QFileInfo::exists(file)) {
-      options.files << file;
+  if (parser.isSet(writeManual)) {
+    const auto written = manual::writeManual(commandOf(parser.applicationDescription(), shown, file),
+                                             parser.value(writeManual).toStdString());
+    parsed.exitCode = written ? kDone : complain(QString::fromStdString(toString(written.findings())));
+    return parsed;
+  }
+  for (const QString& name : parser.positionalArguments()) {
+    if (QFileInfo::exists(name)) {
+      options.files << name;
       continue;
     }
-    parsed.exitCode = complain("no such file or folder: " + file);
+    parsed.exitCode = complain("no such file or folder: " + name);
     return parsed;
   }
   options.preset = parser.value(preset);
