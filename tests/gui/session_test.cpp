@@ -21,6 +21,7 @@ namespace {
 using workbench::Document;
 using workbench::FileKind;
 using workbench::fileKindOf;
+using workbench::terrainOf;
 using workbench::SavedSession;
 
 QString pathIn(const ScratchDir& dir, const std::string& name) {
@@ -110,6 +111,10 @@ TEST(FileKinds, areToldByNameAndFirstLine) {
   EXPECT_EQ(kindOf("a.workspace.json", "{}"), FileKind::workspace);
   EXPECT_EQ(kindOf("a.session.json", "{}"), FileKind::session);
   EXPECT_EQ(kindOf("a.JSON", "{}"), FileKind::preset);
+  EXPECT_EQ(kindOf("manifest.json", "{}"), FileKind::terrain);
+  EXPECT_EQ(terrainOf(pathIn(dir, "a.tif")), pathIn(dir, "a.tif"));
+  EXPECT_EQ(terrainOf(pathIn(dir, "manifest.json")), QString::fromStdString(dir.path().string()))
+      << "which is what a file manager opens of a baked database";
   EXPECT_EQ(kindOf("a.fll", ""), FileKind::rules);
   EXPECT_EQ(kindOf("a.FIS", ""), FileKind::rules);
   EXPECT_EQ(kindOf("a.pcap", ""), FileKind::flight);

@@ -7,6 +7,7 @@
 
 #include "saved_session.h"
 #include "trimtab/preset/file_io.h"
+#include "trimtab/terrain/format/store.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -33,12 +34,23 @@ FileKind kindOfTable(const QString& path) {
   return names({"yaw", "pitch", "heading"}) && !names({"lat"}) ? FileKind::head_log : FileKind::flight;
 }
 
+/// Whether a file is the manifest of a baked database, which is what file managers open of one.
+bool isManifest(const QFileInfo& info) {
+  return info.fileName() == QLatin1String(terrain::kManifestName);
+}
+
 }  // namespace
+
+QString terrainOf(const QString& path) {
+  const QFileInfo info(path);
+  return isManifest(info) ? info.path() : path;
+}
 
 FileKind fileKindOf(const QString& path) {
   const QFileInfo info(path);
   if (!info.isFile()) return FileKind::terrain;
   const QString name = info.fileName().toLower(), ending = info.suffix().toLower();
+  if (isManifest(info)) return FileKind::terrain;
   if (name == QLatin1String("results.json")) return FileKind::results;
   if (name.endsWith(QLatin1String(".workspace.json"))) return FileKind::workspace;
   if (name.endsWith(QLatin1String(kSessionEnding))) return FileKind::session;

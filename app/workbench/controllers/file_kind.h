@@ -12,4 +12,7 @@ enum class FileKind { results, workspace, session, preset, rules, head_log, flig
 /// head log has angles alone. Everything else is taken for terrain, folders too.
 FileKind fileKindOf(const QString& path);
 
+/// Returns the folder of a baked database whose manifest.json `path` is, else `path`.
+QString terrainOf(const QString& path);
+
 }  // namespace trimtab::workbench

@@ -29,8 +29,10 @@ QStringList recentFiles(const QString& kind) {
 }
 
 QStringList shippedFlights() {
-  // The program is run from the tree in which it was built.
-  const QDir folder(QCoreApplication::applicationDirPath() + QStringLiteral("/../../resources/flights"));
+  // Beside an installed program, or in the tree in which it was built.
+  QDir folder(QCoreApplication::applicationDirPath() + QStringLiteral("/../share/trimtab/flights"));
+  if (!folder.exists())
+    folder.setPath(QCoreApplication::applicationDirPath() + QStringLiteral("/../../resources/flights"));
   QStringList paths;
   for (const QFileInfo& file : folder.entryInfoList({QStringLiteral("*.csv")}, QDir::Files, QDir::Name))
     paths.append(file.canonicalFilePath());

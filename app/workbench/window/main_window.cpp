@@ -279,7 +279,7 @@ void MainWindow::openAny(const QString& path) {
       c.flight->open(path);
       return;
     case FileKind::terrain:
-      return c.terrain->open(path);
+      return c.terrain->open(terrainOf(path));
   }
 }
 
