@@ -49,13 +49,16 @@ TEST_F(InstalledCore, servesAConsumerThroughPkgConfigAlsoAfterAMove) {
   EXPECT_EQ(run(program + " " + (dir_ / "export.json").string()).out, expected_);
 }
 
-// The component `interface` alone, in a prefix of its own: a program in C needs nothing else.
+// The components `interface` and `interface-dev` alone, in a prefix of its own: a program in C needs nothing else.
 TEST_F(InstalledCore, servesAConsumerInCThroughCmakeAndPkgConfigAlsoAfterAMove) {
   const std::string prefix = (dir_ / "c-prefix").string(), moved = (dir_ / "c-moved").string(),
                     source = (sourceDir() / "tests/core/install/c_consumer").string(),
                     build = (dir_ / "c-build").string(), preset = (dir_ / "export.json").string();
-  const Ran installed = run("cmake --install " TRIMTAB_BUILD_DIR " --component interface --prefix " + prefix);
-  ASSERT_EQ(installed.exitCode, 0) << installed.err;
+  for (const char* component : {"interface", "interface-dev"})
+    ASSERT_EQ(run(std::string("cmake --install " TRIMTAB_BUILD_DIR " --component ") + component +
+                  " --prefix " + prefix)
+                  .exitCode,
+              0);
   const Ran built = run("cmake -S " + source + " -B " + build + " -G Ninja -DCMAKE_PREFIX_PATH=" + prefix +
                         " && cmake --build " + build);
   ASSERT_EQ(built.exitCode, 0) << built.out << built.err;

@@ -15,7 +15,7 @@ class InstalledIg : public testing::Test {
     const Ran made = run(cli + " terrain sample --size-km 6 -o " + tif + " && " + cli + " terrain bake " +
                          tif + " -o " + database());
     ASSERT_EQ(made.exitCode, 0) << made.err;
-    for (const char* component : {"core", "ig"})
+    for (const char* component : {"core", "ig", "ig-dev"})
       ASSERT_EQ(run(std::string("cmake --install " TRIMTAB_BUILD_DIR " --component ") + component +
                     " --prefix " + prefix())
                     .exitCode,
