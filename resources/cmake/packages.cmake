@@ -83,8 +83,8 @@ set(CPACK_DEBIAN_LIBTRIMTAB1_PACKAGE_CONTROL_EXTRA ${made}/triggers)
 set(dev_components interface-dev core)
 if(NOT TRIMTAB_CORE_ONLY)
   list(APPEND dev_components ig-dev)
-  # The workbench runs trimtab-cli; Qt opens the plugin of the window system by its name.
-  trimtab_package(trimtab SECTION graphics COMPONENTS workbench ig DEPENDS "trimtab-cli ${same_version}, qt6-qpa-plugins"
+  # The workbench runs trimtab-cli.
+  trimtab_package(trimtab SECTION graphics COMPONENTS workbench ig DEPENDS "trimtab-cli ${same_version}"
     TITLE "Workbench that tunes culling and level of detail of image generators"
     TEXT "It draws terrain, follows a flight simulator's host over UDP, and shows at once
 what each setting does to scheme, triangles, frame time and image error. It
