@@ -3,6 +3,7 @@
 #include <regex>
 #include <set>
 
+#include "app/manual/command.h"
 #include "tests/support.h"
 
 // Man pages and completion, against what --help of the built programs says.
@@ -118,6 +119,21 @@ TEST_P(CliManual, offersTheWordsThatAnOptionTakes) {
   EXPECT_EQ(offered({"trimtab-cli", "preset", "export", "--format", ""}), (Words{"json", "xml", "ini"}));
   EXPECT_EQ(offered({"trimtab-cli", "preset", "export", "default", "--output", ""}), Words{});
   EXPECT_EQ(offered({"trimtab-cli", "preset", "export", "--fo"}), Words{"--format"});
+}
+
+TEST(ManPage, showsSignsThatRoffWouldTakeForItsOwn) {
+  if (run("command -v man").exitCode != 0) GTEST_SKIP() << "needs the package man-db";
+  manual::Command command{"x", "Take \\fB as it is", {}, {}};
+  command.arguments.emplace_back().names = {"--at-once"};
+  command.arguments.back().text = ".flt or .ive";
+  command.arguments.emplace_back().names = {"FILE"};
+  command.arguments.back().text = "'quoted' name";
+  const ScratchDir dir;
+  writeFile(dir / "x.1", manual::manPage(command));
+  const Ran ran = run("MANWIDTH=80 man --warnings -l -Tascii -P cat " + (dir / "x.1").string() + " | col -b");
+  EXPECT_EQ(ran.err, "");
+  for (const char* text : {"x - Take \\fB as it is", "--at-once", ".flt or .ive.", "'quoted' name."})
+    EXPECT_THAT(ran.out, testing::HasSubstr(text));
 }
 
 TEST(ManualFolder, thatCannotBeMadeIsRefusedByName) {
