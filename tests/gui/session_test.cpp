@@ -5,6 +5,7 @@
 #include <QStandardPaths>
 
 #include "app/workbench/controllers/file_kind.h"
+#include "app/workbench/controllers/recent_files.h"
 #include "app/workbench/controllers/saved_session.h"
 #include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/flight_dock.h"
@@ -21,8 +22,8 @@ namespace {
 using workbench::Document;
 using workbench::FileKind;
 using workbench::fileKindOf;
-using workbench::terrainOf;
 using workbench::SavedSession;
+using workbench::terrainOf;
 
 QString pathIn(const ScratchDir& dir, const std::string& name) {
   return QString::fromStdString((dir / name).string());
@@ -126,6 +127,20 @@ TEST(FileKinds, areToldByNameAndFirstLine) {
   EXPECT_EQ(kindOf("a.tif", ""), FileKind::terrain);
   EXPECT_EQ(fileKindOf(QString::fromStdString(dir.path().string())), FileKind::terrain);
   EXPECT_EQ(fileKindOf(pathIn(dir, "gone.json")), FileKind::terrain) << "which says that it is not there";
+}
+
+TEST(ShippedFlights, areThoseOfTheTreeOrBesideAnInstalledProgram) {
+  EXPECT_EQ(QFileInfo(workbench::shippedFlights().value(0)).dir().dirName(), "flights");
+  EXPECT_EQ(workbench::shippedFlights().size(), 3);
+  // Where an installation has them, seen from the program.
+  const std::filesystem::path share = programDir().parent_path() / "share";
+  ASSERT_FALSE(std::filesystem::exists(share));
+  std::filesystem::create_directories(share / "trimtab/flights");
+  writeFile(share / "trimtab/flights/one.csv", "");
+  const QStringList installed = workbench::shippedFlights();
+  std::filesystem::remove_all(share);
+  ASSERT_EQ(installed.size(), 1);
+  EXPECT_EQ(QFileInfo(installed.first()).fileName(), "one.csv");
 }
 
 class WorkbenchSession : public Bench {
