@@ -9,20 +9,15 @@
 #include "app/experiment/report.h"
 #include "app/workbench/jobs/child_run.h"
 
-class QComboBox;
 class QLabel;
 class QLineEdit;
-class QPlainTextEdit;
 class QProgressBar;
 class QPushButton;
 class QSpinBox;
-class QTableWidget;
-
-namespace trimtab::views {
-class ReportPlot;
-}
 
 namespace trimtab::workbench {
+
+class ReportView;
 
 /// The files that an experiment runs over.
 struct ExperimentInputs {
@@ -45,7 +40,7 @@ class LeveragePage : public QWidget {
   void cancel();
   const ChildRun& child() const { return child_; }
   bool running() const { return child_.running(); }
-  const std::optional<experiment::Report>& report() const { return report_; }
+  const std::optional<experiment::Report>& report() const;
 
  signals:
   void finished(bool good);
@@ -53,25 +48,19 @@ class LeveragePage : public QWidget {
 
  private:
   void onEnded(const ChildRun::Ended& how);
-  void show(const experiment::Report& report);
-  void showPlot(int index);
   void save();
   void setRunning(bool running);
 
   Source source_;
   ChildRun child_;
   QTemporaryDir folder_;
-  std::optional<experiment::Report> report_;
 
-  QComboBox* plots_;
   QLineEdit* size_;
   QSpinBox* repeats_;
   QPushButton *run_, *save_;
   QProgressBar* progress_;
-  QLabel *status_, *machine_;
-  QTableWidget* measured_;
-  views::ReportPlot* plot_;
-  QPlainTextEdit* notes_;
+  QLabel* status_;
+  ReportView* report_;
 };
 
 }  // namespace trimtab::workbench

@@ -28,6 +28,7 @@
 #include "app/workbench/docks/host_dock.h"
 #include "app/workbench/docks/leverage_page.h"
 #include "app/workbench/docks/message_panel.h"
+#include "app/workbench/docks/search_page.h"
 #include "app/workbench/viewport/split_view.h"
 #include "app/workbench/window/palette_entries.h"
 #include "appearance.h"
@@ -116,10 +117,9 @@ void MainWindow::makeControllers() {
       at, measuring_, ErrorsController::Neighbours{*c.frame, *c.terrain, *c.flight, *c.trace, *c.inputs});
 
   using enum DockLayout::Place;
-  const auto inputs = [this](const QString& folder) { return controllers_.inputs->write(folder); };
-  panels_.leverage = docks_.join("policy", tr("Leverage"), new LeveragePage(inputs));
   docks_.add("errors", tr("Run time against error"), foot, &c.errors->dock());
   docks_.join("errors", tr("Compare"), &c.errors->splitView());
+  addRunPages(docks_, panels_, *c.inputs, draft_);
   docks_.setQuestion("errors", tr("What does a preset cost, and what error does it make?"));
   workspaces_ = new Workspaces(*this, docks_);
   sessions_ = new SessionKeeper(at, controllers_, *workspaces_, panels_.changes->snapshots());
@@ -200,13 +200,13 @@ void MainWindow::connectParts() {
   connect(panels_.policy, &views::PolicyPanel::imported, messages, &MessagePanel::add);
   connect(panels_.host, &HostDock::refused, messages, &MessagePanel::add);
   connect(panels_.flight, &FlightDock::refused, messages, &MessagePanel::add);
-  connect(panels_.leverage, &LeveragePage::refused, messages, &MessagePanel::add);
 }
 
 /// Whatever measures times has the machine for itself.
 void MainWindow::connectPause() {
   pause_.follow(controllers_.errors->dock().child(), &ChildRun::runningChanged, tr("presets are measured"));
   pause_.follow(panels_.leverage->child(), &ChildRun::runningChanged, tr("leverage is measured"));
+  pause_.follow(panels_.search->child(), &ChildRun::runningChanged, tr("presets are searched"));
   // Comparing says so itself: it goes on and off all the time.
   pause_.follow(controllers_.errors->splitView(), &SplitView::busyChanged, {});
   connect(&pause_, &ViewPause::changed, this, &MainWindow::showPause);

@@ -4,12 +4,16 @@
 #include <QDockWidget>
 #include <QObject>
 
+#include "app/workbench/controllers/run_inputs.h"
 #include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/dock_of.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/docks/host_dock.h"
+#include "app/workbench/docks/leverage_page.h"
 #include "app/workbench/docks/message_panel.h"
+#include "app/workbench/docks/search_page.h"
 #include "dock_layout.h"
+#include "trimtab/preset/preset.h"
 #include "views/controls/parameter_table.h"
 #include "views/editors/bands_editor.h"
 #include "views/model/draft.h"
@@ -95,6 +99,22 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
     goTo(*dockOf(*culling));
   });
   return panels;
+}
+
+void addRunPages(DockLayout& docks, Panels& panels, const RunInputs& inputs, views::Draft& draft) {
+  const auto source = [&inputs](const QString& folder) { return inputs.write(folder); };
+  panels.leverage = docks.join("policy", QObject::tr("Leverage"), new LeveragePage(source));
+  panels.search = docks.join("errors", QObject::tr("Find"), new SearchPage(source));
+  MessagePanel* const messages = panels.messages;
+  QObject::connect(panels.leverage, &LeveragePage::refused, messages, &MessagePanel::add);
+  QObject::connect(panels.search, &SearchPage::refused, messages, &MessagePanel::add);
+  QObject::connect(panels.search, &SearchPage::chosen, messages,
+                   [&draft, messages](const QString& name, const QString& text) {
+                     const Result<Preset> preset = parsePreset(text.toStdString(), name.toStdString());
+                     if (!preset)
+                       return messages->add(QObject::tr("The preset cannot be used"), preset.findings());
+                     draft.takeParameters(preset->parameters, QObject::tr("Use %1").arg(name));
+                   });
 }
 
 }  // namespace trimtab::workbench

@@ -25,6 +25,8 @@ class FlightDock;
 class HostDock;
 class LeveragePage;
 class MessagePanel;
+class RunInputs;
+class SearchPage;
 
 /// The contents of those docks that the window and its controllers use. The docks own them.
 struct Panels {
@@ -43,10 +45,14 @@ struct Panels {
   views::PlotsPanel* plots = nullptr;
   MessagePanel* messages = nullptr;
   ChangesDock* changes = nullptr;
-  LeveragePage* leverage = nullptr;  ///< made by the window, because it needs controllers
+  // Made once there are controllers, which they need.
+  LeveragePage* leverage = nullptr;
+  SearchPage* search = nullptr;
 };
 
-/// Makes every dock but Run time against error and every page but Leverage, which need controllers.
+/// Makes every dock but Run time against error and every page but Leverage and Find, which need controllers.
 Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed);
+/// Adds the two pages that run programs over what the window shows, once their docks are there.
+void addRunPages(DockLayout& docks, Panels& panels, const RunInputs& inputs, views::Draft& draft);
 
 }  // namespace trimtab::workbench

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "search_page.h"
+
+#include <QDir>
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QRegularExpression>
+#include <QRegularExpressionValidator>
+#include <QSpinBox>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include "app/experiment/parse_report.h"
+#include "report_view.h"
+
+namespace trimtab::workbench {
+namespace {
+
+/// What most presets trade time for error by.
+const QString kUsuallyFree = QStringLiteral(
+    "lod.screen_space_error_px lod.scale objects.error_px objects.small_feature_px hold.enabled");
+
+}  // namespace
+
+SearchPage::SearchPage(LeveragePage::Source source, QWidget* parent)
+    : QWidget(parent),
+      source_(std::move(source)),
+      budget_(new QDoubleSpinBox(this)),
+      free_(new QLineEdit(kUsuallyFree, this)),
+      heldOut_(new QLineEdit(this)),
+      size_(new QLineEdit(QStringLiteral("1280x720"), this)),
+      frames_(new QSpinBox(this)),
+      evaluations_(new QSpinBox(this)),
+      choose_(new QPushButton(tr("C&hoose…"), this)),
+      run_(new QPushButton(tr("&Search"), this)),
+      use_(new QPushButton(tr("&Use preset"), this)),
+      progress_(new QProgressBar(this)),
+      status_(new QLabel(this)),
+      report_(new ReportView(tr("Found presets"), this)) {
+  budget_->setRange(0, 1000);
+  budget_->setDecimals(1);
+  budget_->setValue(16.7);
+  budget_->setSuffix(tr(" ms"));
+  budget_->setSpecialValueText(tr("no limit"));
+  budget_->setToolTip(
+      tr("95 % of the images may take so long; without a limit presets are spread along the front"));
+  free_->setToolTip(
+      tr("What may move: keys of parameters, groups as objects.*, or a key within ends of its own as "
+         "lod.scale=1..3, with blanks between"));
+  heldOut_->setPlaceholderText(tr("none: nothing is proven of other flights"));
+  heldOut_->setToolTip(tr("A flight that the search does not see, on which what it found is proven"));
+  size_->setValidator(new QRegularExpressionValidator(
+      QRegularExpression(QStringLiteral("[1-9][0-9]{1,4}x[1-9][0-9]{1,4}")), size_));
+  size_->setToolTip(tr("Render size in pixels"));
+  frames_->setRange(1, 100000);
+  frames_->setValue(24);
+  frames_->setToolTip(tr("Frames of each flight that are drawn of each preset; a 95th percentile needs 20"));
+  evaluations_->setRange(100, 10000000);
+  evaluations_->setValue(20000);
+  evaluations_->setToolTip(tr("Presets that the search estimates"));
+  status_->setWordWrap(true);
+  status_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+
+  auto* held = new QHBoxLayout;
+  held->addWidget(heldOut_, 1);
+  held->addWidget(choose_);
+  auto* numbers = new QHBoxLayout;
+  numbers->addWidget(budget_);
+  const auto labelled = [&](const QString& text, QWidget* field) {
+    auto* label = new QLabel(text, this);
+    label->setBuddy(field);
+    numbers->addWidget(label);
+    numbers->addWidget(field);
+  };
+  labelled(tr("Si&ze"), size_);
+  labelled(tr("F&rames"), frames_);
+  labelled(tr("&Estimates"), evaluations_);
+  numbers->addStretch(1);
+  numbers->addWidget(run_);
+  numbers->addWidget(use_);
+  auto* form = new QFormLayout;
+  form->addRow(tr("&Free"), free_);
+  form->addRow(tr("He&ld out"), held);
+  form->addRow(tr("&Budget"), numbers);
+  auto* column = new QVBoxLayout(this);
+  column->addLayout(form);
+  column->addWidget(progress_);
+  column->addWidget(status_);
+  column->addWidget(report_, 1);
+
+  connect(choose_, &QPushButton::clicked, this, [this] {
+    const QString file = QFileDialog::getOpenFileName(this, tr("Flight that the search does not see"));
+    if (!file.isEmpty()) heldOut_->setText(file);
+  });
+  connect(run_, &QPushButton::clicked, this, [this] { running() ? cancel() : run(); });
+  connect(use_, &QPushButton::clicked, this, &SearchPage::use);
+  connect(&report_->table(), &QTableWidget::itemSelectionChanged, this, &SearchPage::rowSelected);
+  connect(&report_->table(), &QTableWidget::cellDoubleClicked, this, &SearchPage::use);
+  connect(&child_, &ChildRun::progressed, this, [this](int percent, const QString& what) {
+    progress_->setValue(percent);
+    status_->setText(what);
+  });
+  connect(&child_, &ChildRun::ended, this, &SearchPage::onEnded);
+  setRunning(false);
+  rowSelected();
+}
+
+const std::optional<experiment::Report>& SearchPage::report() const {
+  return report_->report();
+}
+
+void SearchPage::setRunning(bool running) {
+  run_->setText(running ? tr("&Cancel") : tr("&Search"));
+  progress_->setVisible(running);
+  progress_->setValue(0);
+  for (QWidget* field :
+       {static_cast<QWidget*>(budget_), static_cast<QWidget*>(free_), static_cast<QWidget*>(heldOut_),
+        static_cast<QWidget*>(size_), static_cast<QWidget*>(frames_), static_cast<QWidget*>(evaluations_),
+        static_cast<QWidget*>(choose_)})
+    field->setEnabled(!running);
+  if (!running && !report())
+    status_->setText(
+        tr("Searches presets around the current one along the open flight, and draws what it found on this "
+           "machine."));
+}
+
+void SearchPage::run() {
+  if (running()) return;
+  const std::optional<ExperimentInputs> inputs = source_(folder_.path());
+  if (!inputs)
+    return status_->setText(
+        tr("Not started: a search needs an open terrain (Ctrl+T opens one), and the dock Messages says if "
+           "its input "
+           "could not be written."));
+  if (inputs->flight.isEmpty())
+    return status_->setText(tr("Not started: a search is made along a flight. Ctrl+L opens one."));
+  QStringList arguments{QStringLiteral("tune"),
+                        QStringLiteral("--terrain"),
+                        inputs->terrain,
+                        QStringLiteral("--preset"),
+                        inputs->preset,
+                        QStringLiteral("--flight"),
+                        inputs->flight,
+                        QStringLiteral("--size"),
+                        size_->text(),
+                        QStringLiteral("--frames"),
+                        QString::number(frames_->value()),
+                        QStringLiteral("--evaluations"),
+                        QString::number(evaluations_->value()),
+                        QStringLiteral("--json"),
+                        QStringLiteral("-o"),
+                        folder_.filePath(QStringLiteral("search-%1").arg(++runs_))};
+  if (budget_->value() > 0) arguments << QStringLiteral("--budget-ms") << QString::number(budget_->value());
+  if (!heldOut_->text().trimmed().isEmpty())
+    arguments << QStringLiteral("--hold-out") << heldOut_->text().trimmed();
+  arguments << QStringLiteral("--free") << free_->text().split(QLatin1Char(' '), Qt::SkipEmptyParts);
+  setRunning(true);
+  status_->setText(tr("Starting…"));
+  child_.start(arguments);
+}
+
+void SearchPage::cancel() {
+  if (!running()) return;
+  status_->setText(tr("Cancelling…"));
+  child_.cancel();
+}
+
+void SearchPage::onEnded(const ChildRun::Ended& how) {
+  setRunning(false);
+  if (how.cancelled) {
+    --runs_;
+    status_->setText(
+        tr("Cancelled. Search goes on from what is there, unless a field changes; the earlier results are "
+           "kept."));
+    emit finished(false);
+    return;
+  }
+  Findings findings = how.findings;
+  if (how.good) {
+    const Result<experiment::Report> read = experiment::parseReport(
+        std::string_view(how.output.constData(), std::size_t(how.output.size())), "trimtab-cli");
+    findings = read ? Findings{} : read.findings();
+    if (read) report_->show(*read);
+  }
+  if (!findings.empty()) {
+    status_->setText(tr("Failed; the earlier results are kept."));
+    emit refused(tr("No preset was found"), findings);
+    emit finished(false);
+    return;
+  }
+  status_->setText(report()->notes.empty() ? tr("Done") : QString::fromStdString(report()->notes.front()));
+  rowSelected();
+  emit finished(true);
+}
+
+/// Returns the name of the preset in the selected row; empty if there is none, or if the search did not find
+/// it.
+QString SearchPage::found() const {
+  const int row = report_->table().currentRow();
+  if (!report() || row < 0 || row >= int(report()->measured.rows.size())) return {};
+  const QString name = QString::fromStdString(report()->measured.text(std::size_t(row), "preset"));
+  return QFile::exists(fileOf(name)) ? name : QString();
+}
+
+QString SearchPage::fileOf(const QString& preset) const {
+  return folder_.filePath(QStringLiteral("search-%1/presets/%2.json").arg(runs_).arg(preset));
+}
+
+void SearchPage::rowSelected() {
+  use_->setEnabled(!found().isEmpty());
+  use_->setToolTip(found().isEmpty() ? tr("Select a row of a found preset")
+                                     : tr("Fly %1; undo takes it back").arg(found()));
+}
+
+void SearchPage::use() {
+  const QString name = found();
+  QFile file(fileOf(name));
+  if (name.isEmpty() || !file.open(QIODevice::ReadOnly)) return;
+  emit chosen(name, QString::fromUtf8(file.readAll()));
+}
+
+}  // namespace trimtab::workbench

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QTemporaryDir>
+#include <QWidget>
+
+#include "leverage_page.h"
+
+class QDoubleSpinBox;
+class QLineEdit;
+class QSpinBox;
+
+namespace trimtab::workbench {
+
+class ReportView;
+
+/// Searches presets around the current one along the open flight, and shows what was found and what it is
+/// worth. It runs as a program of its own, so that cancelling always works.
+class SearchPage : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit SearchPage(LeveragePage::Source source, QWidget* parent = nullptr);
+
+  void run();
+  void cancel();
+  const ChildRun& child() const { return child_; }
+  bool running() const { return child_.running(); }
+  const std::optional<experiment::Report>& report() const;
+  /// Asks for the preset of the selected row, if it was found by the search.
+  void use();
+
+ signals:
+  void finished(bool good);
+  void refused(const QString& what, const trimtab::Findings& findings);
+  /// Wants a found preset to be flown. `text` is its file.
+  void chosen(const QString& name, const QString& text);
+
+ private:
+  void onEnded(const ChildRun::Ended& how);
+  void setRunning(bool running);
+  void rowSelected();
+  QString found() const;
+  QString fileOf(const QString& preset) const;
+
+  LeveragePage::Source source_;
+  ChildRun child_;
+  QTemporaryDir folder_;
+  int runs_ = 0;  ///< each has a folder of its own
+
+  QDoubleSpinBox* budget_;
+  QLineEdit *free_, *heldOut_, *size_;
+  QSpinBox *frames_, *evaluations_;
+  QPushButton *choose_, *run_, *use_;
+  QProgressBar* progress_;
+  QLabel* status_;
+  ReportView* report_;
+};
+
+}  // namespace trimtab::workbench
