@@ -10,6 +10,7 @@
 #include "open_terrain.h"
 #include "progress.h"
 #include "settings.h"
+#include "trimtab/preset/preset.h"
 #include "trimtab/scene/osg_database.h"
 
 namespace trimtab::cli {
@@ -41,7 +42,9 @@ int run(const TuneOptions& arguments) {
   plan.version = TRIMTAB_VERSION;
   plan.progress = progressLines();
   plan.free = arguments.free;
-  plan.startName = std::filesystem::path(arguments.preset).stem().string();
+  const Result<Preset> preset = loadPreset(arguments.preset);
+  plan.startName = preset && !preset->name.empty() ? preset->name
+                                                   : std::filesystem::path(arguments.preset).stem().string();
   if (arguments.budgetMs > 0) plan.budgetMs = arguments.budgetMs;
   if (arguments.maxError > 0) plan.maxError = arguments.maxError;
   plan.time = arguments.time == "median" ? tune::TimeMeasure::median

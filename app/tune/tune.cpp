@@ -245,7 +245,7 @@ void Run::addFound(std::vector<Candidate> candidates) {
 /// Adds what the found presets are held against: the start, the default, and what a person would try.
 void Run::addOthers() {
   const Judge judge(plan_, space_, seen());
-  add(plan_.startName, Role::start, plan_.start);
+  add(plan_.startName + " (start)", Role::start, plan_.start);
   if (!differences(*plan_.start, *withBudgetOf(plan_, defaultParameters())).empty())
     add("default", Role::standard, defaultParameters());
   if (!plan_.budgetMs && !plan_.maxError) return;

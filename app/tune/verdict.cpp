@@ -22,16 +22,31 @@ double worth(const Plan& plan, const Tuned& preset) {
 }
 
 std::string limitOf(const Plan& plan) {
-  if (plan.budgetMs) return "Within " + numberText(*plan.budgetMs, 4) + " ms";
-  if (plan.maxError) return "Within a mean FLIP of " + numberText(*plan.maxError, 3);
-  return "Without a limit";
+  return plan.budgetMs ? "Within " + numberText(*plan.budgetMs, 4) + " ms"
+                       : "Within a mean FLIP of " + numberText(*plan.maxError, 3);
 }
+
+std::string timeText(const harness::AnswerRow& row) {
+  if (!std::isfinite(row.p95Ms)) return "median " + numberText(row.medianMs, 3) + " ms";
+  return "p95 " + numberText(row.p95Ms, 3) + " ms (" + harness::boundsText(row.p95BoundsMs) + ')';
+}
+
+std::string frontText(const std::vector<Tuned>& presets) {
+  const auto onFront = [](const Tuned& preset) { return preset.role == Role::found && preset.onFront; };
+  const auto count = std::count_if(presets.begin(), presets.end(), onFront);
+  return "No limit was asked for: of the presets that were found and drawn, " + std::to_string(count) +
+         (count == 1 ? " lies" : " lie") + " on the front of time against error.";
+}
+
+constexpr const char* kNotProven = " No flight was held out, so nothing is proven of others.";
 
 }  // namespace
 
 double measuredMs(const Plan& plan, const harness::AnswerRow& row) {
-  if (plan.time == TimeMeasure::median) return row.medianMs;
-  return plan.time == TimeMeasure::p99 && std::isfinite(row.p99Ms) ? row.p99Ms : row.p95Ms;
+  const double asked = plan.time == TimeMeasure::median ? row.medianMs
+                       : plan.time == TimeMeasure::p95  ? row.p95Ms
+                                                        : row.p99Ms;
+  return std::isfinite(asked) ? asked : std::isfinite(row.p95Ms) ? row.p95Ms : row.medianMs;
 }
 
 double longestMs(const Plan& plan, const Tuned& preset, std::size_t first, std::size_t count) {
@@ -60,6 +75,8 @@ void markFront(const Plan& plan, std::vector<Tuned>& presets) {
 }
 
 std::string answerOf(const Plan& plan, const std::vector<Tuned>& presets) {
+  const bool proven = !plan.heldOut.empty();
+  if (!plan.budgetMs && !plan.maxError) return frontText(presets) + (proven ? "" : kNotProven);
   const Tuned* best = nullptr;
   for (const Tuned& preset : presets)
     if (fits(plan, preset) && (best == nullptr || worth(plan, preset) < worth(plan, *best))) best = &preset;
@@ -67,7 +84,6 @@ std::string answerOf(const Plan& plan, const std::vector<Tuned>& presets) {
     return limitOf(plan) +
            " on the flights that the search saw: no preset that was drawn. The table says how far each is "
            "off.";
-  const bool proven = !plan.heldOut.empty();
   const std::size_t first = proven ? plan.flights.size() : 0;
   const std::size_t count = proven ? plan.heldOut.size() : plan.flights.size();
   std::string text = limitOf(plan) +
@@ -78,13 +94,12 @@ std::string answerOf(const Plan& plan, const std::vector<Tuned>& presets) {
     const harness::AnswerRow& row = best->measured[first + i];
     text += (i == 0 ? ", " : "; ");
     if (count > 1) text += (proven ? plan.heldOut[i] : plan.flights[i]).name + ' ';
-    text += "p95 " + numberText(row.p95Ms, 3) + " ms (" + harness::boundsText(row.p95BoundsMs) + "), FLIP " +
-            numberText(row.flip, 2);
+    text += timeText(row) + ", FLIP " + numberText(row.flip, 2);
   }
   const Tuned& start = presets.front();
   text += "; " + start.name + ' ' + numberText(longestMs(plan, start, first, count), 3) + " ms, FLIP " +
           numberText(meanFlip(start, first, count), 2) + '.';
-  if (!proven) text += " No flight was held out, so nothing is proven of others.";
+  if (!proven) text += kNotProven;
   return text;
 }
 

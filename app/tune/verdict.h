@@ -8,8 +8,8 @@
 /// Says what drawn presets are worth.
 namespace trimtab::tune {
 
-/// Returns the time that a plan counts of a flight, milliseconds; the 95th percentile where the frames are
-/// too few for the 99th.
+/// Returns the time that a plan counts of a flight, milliseconds; a lower percentile where the frames are too
+/// few for it.
 double measuredMs(const Plan& plan, const harness::AnswerRow& row);
 /// Return the longest time, milliseconds, and the mean FLIP of the flights [first, first + count).
 double longestMs(const Plan& plan, const Tuned& preset, std::size_t first, std::size_t count);

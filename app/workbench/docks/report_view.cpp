@@ -3,7 +3,6 @@
 
 #include <QComboBox>
 #include <QHeaderView>
-#include <QLabel>
 #include <QPlainTextEdit>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -58,8 +57,7 @@ ReportView::ReportView(const QString& what, QWidget* parent)
       table_(new QTableWidget(this)),
       plots_(new QComboBox(this)),
       plot_(new views::ReportPlot(this)),
-      notes_(new QPlainTextEdit(this)),
-      machine_(new QLabel(this)) {
+      notes_(new QPlainTextEdit(this)) {
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setAlternatingRowColors(true);
@@ -70,7 +68,6 @@ ReportView::ReportView(const QString& what, QWidget* parent)
   plots_->setAccessibleName(tr("Plot"));
   notes_->setReadOnly(true);
   notes_->setAccessibleName(tr("Notes"));
-  machine_->setWordWrap(true);
 
   auto* plotPage = new QWidget(this);
   auto* plotColumn = new QVBoxLayout(plotPage);
@@ -83,15 +80,13 @@ ReportView::ReportView(const QString& what, QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(tabs, 1);
-  column->addWidget(machine_);
   connect(plots_, &QComboBox::currentIndexChanged, this, &ReportView::showPlot);
 }
 
 void ReportView::show(const experiment::Report& report) {
   report_ = report;
   fill(*table_, report.measured);
-  machine_->setText(QString::fromStdString(report.machine));
-  QStringList notes;
+  QStringList notes{QString::fromStdString(report.machine)};
   for (const std::string& note : report.notes) notes << QString::fromStdString(note);
   notes_->setPlainText(notes.join(QStringLiteral("\n\n")));
   plots_->clear();

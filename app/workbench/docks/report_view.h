@@ -7,7 +7,6 @@
 #include "app/experiment/report.h"
 
 class QComboBox;
-class QLabel;
 class QPlainTextEdit;
 class QTableWidget;
 
@@ -37,7 +36,6 @@ class ReportView : public QWidget {
   QComboBox* plots_;
   views::ReportPlot* plot_;
   QPlainTextEdit* notes_;
-  QLabel* machine_;
 };
 
 }  // namespace trimtab::workbench

@@ -13,6 +13,7 @@
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QRegularExpressionValidator>
+#include <QScrollArea>
 #include <QSpinBox>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -86,14 +87,29 @@ SearchPage::SearchPage(LeveragePage::Source source, QWidget* parent)
   numbers->addWidget(run_);
   numbers->addWidget(use_);
   auto* form = new QFormLayout;
-  form->addRow(tr("&Free"), free_);
-  form->addRow(tr("He&ld out"), held);
-  form->addRow(tr("&Budget"), numbers);
-  auto* column = new QVBoxLayout(this);
+  const auto addRow = [&](const QString& text, QWidget* buddy, auto* field) {
+    auto* label = new QLabel(text, this);
+    label->setBuddy(buddy);
+    form->addRow(label, field);
+  };
+  addRow(tr("&Free"), free_, free_);
+  addRow(tr("He&ld out"), heldOut_, held);
+  addRow(tr("&Budget"), budget_, numbers);
+  auto* content = new QWidget;
+  auto* column = new QVBoxLayout(content);
   column->addLayout(form);
   column->addWidget(progress_);
   column->addWidget(status_);
   column->addWidget(report_, 1);
+  // A low dock scrolls: the image keeps its half of the window.
+  auto* scroll = new QScrollArea(this);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setAccessibleName(tr("Search for presets"));
+  scroll->setWidget(content);
+  auto* outside = new QVBoxLayout(this);
+  outside->setContentsMargins(0, 0, 0, 0);
+  outside->addWidget(scroll);
 
   connect(choose_, &QPushButton::clicked, this, [this] {
     const QString file = QFileDialog::getOpenFileName(this, tr("Flight that the search does not see"));

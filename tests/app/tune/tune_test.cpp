@@ -52,6 +52,8 @@ TEST(Tune, findsPresetsAndSaysWhatTheyAreWorth) {
   const auto outcome = run(plan, dir / "out");
   ASSERT_TRUE(outcome) << toString(outcome.findings());
   EXPECT_THAT(outcome->answer, HasSubstr("on flights that the search has not seen: preset "));
+  EXPECT_THAT(outcome->answer, HasSubstr("median ")) << "three frames have no 95th percentile";
+  EXPECT_THAT(outcome->answer, testing::Not(HasSubstr("nan")));
   std::size_t found = 0;
   for (const Tuned& preset : outcome->presets) {
     ASSERT_EQ(preset.measured.size(), 2u) << preset.name << ": the flight that was seen, and the other";
@@ -160,6 +162,22 @@ TEST(Tune, aFolderOfAnotherPlanIsNamedAndKept) {
   const auto full = run(plan, dir / "notes");
   ASSERT_FALSE(full);
   EXPECT_THAT(toString(full.findings()), HasSubstr("new or empty folder"));
+}
+
+TEST(Tune, aPresetThatASearchFoundIsOneToStartFrom) {
+  const test::ScratchDir dir;
+  Plan plan = smallTunePlan();
+  TuningParameters found = *plan.start;
+  found.lod.scale = Ratio{2};
+  plan.start = *validate(found);
+  for (const char* name : {"tuned-1", "default"}) {
+    plan.startName = name;
+    const auto outcome = run(plan, dir / name);
+    ASSERT_TRUE(outcome) << toString(outcome.findings());
+    EXPECT_EQ(outcome->presets.front().name, std::string(name) + " (start)");
+    EXPECT_EQ(outcome->presets[1].name, "default");
+    EXPECT_THAT(outcome->answer, HasSubstr("on the front of time against error"));
+  }
 }
 
 TEST(Tune, withoutAHeldOutFlightItSaysThatNothingIsProven) {
