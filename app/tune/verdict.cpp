@@ -8,11 +8,10 @@
 namespace trimtab::tune {
 namespace {
 
-/// Reports whether a preset keeps what the plan asks for on the flights that the search saw.
-bool fits(const Plan& plan, const Tuned& preset) {
-  const std::size_t count = plan.flights.size();
-  if (plan.maxError) return meanFlip(preset, 0, count) <= *plan.maxError;
-  return !plan.budgetMs || longestMs(plan, preset, 0, count) <= *plan.budgetMs;
+/// Reports whether a preset keeps what the plan asks for on the flights [first, first + count).
+bool fits(const Plan& plan, const Tuned& preset, std::size_t first, std::size_t count) {
+  if (plan.maxError) return meanFlip(preset, first, count) <= *plan.maxError;
+  return !plan.budgetMs || longestMs(plan, preset, first, count) <= *plan.budgetMs;
 }
 
 /// Returns what is to be small where the limit is kept.
@@ -79,17 +78,22 @@ std::string answerOf(const Plan& plan, const std::vector<Tuned>& presets) {
   if (!plan.budgetMs && !plan.maxError) return frontText(presets) + (proven ? "" : kNotProven);
   const Tuned* best = nullptr;
   for (const Tuned& preset : presets)
-    if (fits(plan, preset) && (best == nullptr || worth(plan, preset) < worth(plan, *best))) best = &preset;
+    if (fits(plan, preset, 0, plan.flights.size()) &&
+        (best == nullptr || worth(plan, preset) < worth(plan, *best)))
+      best = &preset;
   if (best == nullptr)
     return limitOf(plan) +
            " on the flights that the search saw: no preset that was drawn. The table says how far each is "
            "off.";
   const std::size_t first = proven ? plan.flights.size() : 0;
   const std::size_t count = proven ? plan.heldOut.size() : plan.flights.size();
-  std::string text = limitOf(plan) +
-                     (proven ? " on flights that the search has not seen: preset "
-                             : " on the flights that the search saw: preset ") +
-                     best->name;
+  std::string text =
+      limitOf(plan) +
+      (!proven ? " on the flights that the search saw: preset "
+       : fits(plan, *best, first, count)
+           ? " on flights that the search has not seen: preset "
+           : " on the flights that the search saw, but not on those that it has not seen: there preset ") +
+      best->name;
   for (std::size_t i = 0; i < count; ++i) {
     const harness::AnswerRow& row = best->measured[first + i];
     text += (i == 0 ? ", " : "; ");

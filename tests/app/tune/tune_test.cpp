@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "app/tune/verdict.h"
 #include "tests/app/harness/mountain_plan.h"
 #include "trimtab/preset/preset.h"
 
@@ -51,7 +52,7 @@ TEST(Tune, findsPresetsAndSaysWhatTheyAreWorth) {
   };
   const auto outcome = run(plan, dir / "out");
   ASSERT_TRUE(outcome) << toString(outcome.findings());
-  EXPECT_THAT(outcome->answer, HasSubstr("on flights that the search has not seen: preset "));
+  EXPECT_THAT(outcome->answer, HasSubstr("not seen: "));
   EXPECT_THAT(outcome->answer, HasSubstr("median ")) << "three frames have no 95th percentile";
   EXPECT_THAT(outcome->answer, testing::Not(HasSubstr("nan")));
   std::size_t found = 0;
@@ -178,6 +179,30 @@ TEST(Tune, aPresetThatASearchFoundIsOneToStartFrom) {
     EXPECT_EQ(outcome->presets[1].name, "default");
     EXPECT_THAT(outcome->answer, HasSubstr("on the front of time against error"));
   }
+}
+
+TEST(Tune, whatIsNotKeptOnAHeldOutFlightIsNotSaidToBe) {
+  Plan plan = smallTunePlan();
+  plan.budgetMs = 10;
+  std::vector<Tuned> presets(2);
+  const auto measure = [](Tuned& preset, double seenMs, double heldOutMs) {
+    for (const double ms : {seenMs, heldOutMs}) {
+      harness::AnswerRow row;
+      row.medianMs = row.p95Ms = ms;
+      row.flip = 0.01;
+      preset.measured.push_back(row);
+    }
+  };
+  presets[0].name = "start", presets[1].name = "found";
+  measure(presets[0], 20, 20);
+  measure(presets[1], 9, 9.5);
+  EXPECT_THAT(answerOf(plan, presets),
+              HasSubstr("Within 10 ms on flights that the search has not seen: preset found"));
+  presets[1].measured[1].p95Ms = 12;
+  EXPECT_THAT(answerOf(plan, presets),
+              HasSubstr("but not on those that it has not seen: there preset found, p95 12"));
+  presets[1].measured[0].p95Ms = 11;
+  EXPECT_THAT(answerOf(plan, presets), HasSubstr("no preset that was drawn"));
 }
 
 TEST(Tune, withoutAHeldOutFlightItSaysThatNothingIsProven) {
