@@ -44,7 +44,7 @@ class FlightModelTest : public testing::Test {
       // Images of so small a size take next to nothing, and that with noise: what they cost is planted.
       for (TimedImage& image : w.samples.images)
         image.ms =
-            0.4 + 2e-5 * image.load.triangles + 3 * image.load.groundMpx + (image.looksForHidden ? 0.2 : 0);
+            0.5 + 2e-4 * image.load.triangles + image.load.groundMpx + (image.looksForHidden ? 0.2 : 0);
       w.model->learn(w.samples);
       return w;
     }();
