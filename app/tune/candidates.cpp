@@ -46,9 +46,9 @@ Objectives Judge::operator()(std::span<const double> place) const {
   return of(*valid);
 }
 
-double Judge::merit(const Objectives& objectives, double stretch) const {
+double Judge::merit(const Objectives& objectives) const {
   const std::size_t limited = plan_.maxError ? 1 : 0;
-  const double limit = stretch * (plan_.maxError ? *plan_.maxError : plan_.budgetMs.value_or(kInfinite));
+  const double limit = (plan_.maxError ? *plan_.maxError : plan_.budgetMs.value_or(kInfinite));
   const double over = objectives[limited] / limit;
   // FLIP is at most 1, and no image takes an hour.
   constexpr double kFar = 1e7;
@@ -102,7 +102,7 @@ Candidate bestSingle(const Judge& judge, std::span<const double> start) {
       std::vector<double> place(start.begin(), start.end());
       place[i] = value / static_cast<double>(kValues - 1);
       const Objectives objectives = judge(place);
-      if (judge.merit(objectives, 1) < judge.merit(best.objectives, 1)) best = {std::move(place), objectives};
+      if (judge.merit(objectives) < judge.merit(best.objectives)) best = {std::move(place), objectives};
     }
   return best;
 }
@@ -116,7 +116,7 @@ Candidate bestRandom(const Judge& judge, std::size_t axes, std::uint64_t seed) {
     // The distributions of the standard library differ from one to the next; this does not.
     for (double& at : place) at = static_cast<double>(random() >> 11) * 0x1p-53;
     const Objectives objectives = judge(place);
-    if (best.place.empty() || judge.merit(objectives, 1) < judge.merit(best.objectives, 1))
+    if (best.place.empty() || judge.merit(objectives) < judge.merit(best.objectives))
       best = {std::move(place), objectives};
   }
   return best;

@@ -22,8 +22,8 @@ class Judge {
   Objectives operator()(std::span<const double> place) const;
   Objectives of(const ValidatedParameters& parameters) const;
   /// Orders what was judged by what the plan asks for: least error within the budget, least time within the
-  /// error. What breaks the limit is worse than all that does not. `stretch` multiplies the limit.
-  double merit(const Objectives& objectives, double stretch) const;
+  /// error. What breaks the limit is worse than all that does not.
+  double merit(const Objectives& objectives) const;
 
  private:
   const Plan& plan_;

@@ -73,7 +73,7 @@ double stepAt(const Steps& steps, Loss loss, double value, double rest) {
                    place - static_cast<double>(at));
 }
 
-/// What is known of a row.
+/// Holds what the model knows of one row of a flight.
 struct Row {
   std::size_t row = 0;  ///< of the flight
   /// Its state, with the velocity that follows from those before; the ground is asked for by each preset.
@@ -178,6 +178,17 @@ Between betweenOf(const std::vector<DrawnRow>& drawn, std::size_t row) {
   return {at - 1, at, (static_cast<double>(row) - from) / (to - from)};
 }
 
+/// The part of the triangles and instances of objects that smallest size and farthest distance leave.
+struct Kept {
+  double triangles = 1, instances = 1;
+};
+Kept keptOf(const Row& row, const FrameLevers& levers) {
+  return {stepAt(row.smallKept, Loss::small_feature, levers.smallFeaturePx, 1) *
+              stepAt(row.objectsKept, Loss::object_distance, levers.objectFarM, 1),
+          stepAt(row.smallInstances, Loss::small_feature, levers.smallFeaturePx, 1) *
+              stepAt(row.farInstances, Loss::object_distance, levers.objectFarM, 1)};
+}
+
 }  // namespace
 
 struct FlightModel::Impl {
@@ -185,6 +196,10 @@ struct FlightModel::Impl {
   std::vector<SampleRow> toDraw;
   std::optional<Metres> highest;
   FittedCost cost;
+  /// By which part the fitted costs miss the samples' times: the median, and what 95 % stay below.
+  struct Fit {
+    double median = 0, p95 = 0;
+  };
   Fit fit;
 
   struct Image {
@@ -206,13 +221,10 @@ FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameL
   const auto lose = [&](Loss loss, double value) {
     image.flip += stepAt(row.flip[static_cast<std::size_t>(loss)], loss, value, 0);
   };
-  double objects = countAt(row.objects, objectPx), instances = row.instances;
+  const Kept kept = keptOf(row, levers);
+  const double objects = countAt(row.objects, objectPx) * kept.triangles;
   lose(Loss::ground_error, groundPx);
   if (objects > 0) {
-    objects *= stepAt(row.smallKept, Loss::small_feature, levers.smallFeaturePx, 1) *
-               stepAt(row.objectsKept, Loss::object_distance, levers.objectFarM, 1);
-    instances *= stepAt(row.smallInstances, Loss::small_feature, levers.smallFeaturePx, 1) *
-                 stepAt(row.farInstances, Loss::object_distance, levers.objectFarM, 1);
     lose(Loss::object_error, objectPx);
     lose(Loss::small_feature, levers.smallFeaturePx);
     lose(Loss::object_distance, levers.objectFarM);
@@ -229,7 +241,7 @@ FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameL
   if (levers.particleShare < 1 && particlesOf(decision) > 0) lose(Loss::particles, levers.particleShare);
   const double area = levers.renderScale * levers.renderScale;
   const FrameLoad load{image.triangles, row.groundMpx * area, row.imageMpx * area, particles, false};
-  image.ms = cost(load, instances, levers.occlusion.has_value()) * row.costs;
+  image.ms = cost(load, row.instances * kept.instances, levers.occlusion.has_value()) * row.costs;
   image.flip = std::min(image.flip, 1.0);
   return image;
 }
@@ -248,14 +260,16 @@ HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, con
   const double tiles = placeOf(asked.errorPx * asked.lodScale);
   const double objects = placeOf(asked.objectErrorPx * asked.lodScale);
   const double toNext = placesToNext(asked.errorPx);
+  const Kept kept = keptOf(row, asked);
   for (std::size_t k = 0; k < kErrorSteps; ++k) {
     const double coarser = k == 0 ? 0 : toNext + static_cast<double>(k - 1);
-    given.triangles[k] =
-        drawn * (atPlace(row.tilesAhead, tiles + coarser) + atPlace(row.objectsAhead, objects + coarser));
+    given.triangles[k] = drawn * (atPlace(row.tilesAhead, tiles + coarser) +
+                                  atPlace(row.objectsAhead, objects + coarser) * kept.triangles);
   }
   static_cast<ClockCoefficients&>(given.cost) = cost.coefficients;
   // The arbiter knows no instances: what they cost does not follow its levers.
-  given.cost.other += (asked.occlusion ? cost.lookingMs : 0) + cost.perInstance * row.instances;
+  given.cost.other +=
+      (asked.occlusion ? cost.lookingMs : 0) + cost.perInstance * row.instances * kept.instances;
   for (double ClockCoefficients::*part :
        {&ClockCoefficients::fixed, &ClockCoefficients::perTriangle, &ClockCoefficients::perGroundMpx,
         &ClockCoefficients::perParticles, &ClockCoefficients::perWeatherMpx, &ClockCoefficients::other})
@@ -320,14 +334,6 @@ FlightModel::FlightModel(FlightModel&&) noexcept = default;
 
 const std::vector<SampleRow>& FlightModel::toDraw() const {
   return impl_->toDraw;
-}
-
-std::size_t FlightModel::rows() const {
-  return impl_->rows.size();
-}
-
-FlightModel::Fit FlightModel::fit() const {
-  return impl_->fit;
 }
 
 double FlightModel::emptyMs() const {

@@ -50,12 +50,6 @@ class FlightModel {
   /// Estimates a preset. Call it after learn().
   Estimate estimate(const ValidatedParameters& parameters) const;
 
-  std::size_t rows() const;  ///< that are decided
-  /// Returns by which part the fitted costs miss the samples' times: the median, and what 95 % stay below.
-  struct Fit {
-    double median = 0, p95 = 0;
-  };
-  Fit fit() const;
   /// Returns what an image takes of which nothing is ground, milliseconds, in the row where it takes most.
   double emptyMs() const;
 

@@ -9,7 +9,7 @@
 
 namespace trimtab::tune {
 
-/// What is made small: time and error. NaN or infinity is worse than any number.
+/// The two numbers that a search makes small, time and error. A NaN or an infinity is worse than any number.
 using Objectives = std::array<double, 2>;
 
 struct Candidate {

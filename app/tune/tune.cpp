@@ -54,7 +54,9 @@ Findings faultsOf(const Plan& plan) {
       if (!names.insert(flight.name).second)
         faults.push_back(fault("--flight", "each flight once, so that what is held out was not seen",
                                flight.name + " twice"));
-  if (!scene::loadIndexOf(plan.terrain))
+  // A scene of OpenSceneGraph has an index without a form in it.
+  const std::shared_ptr<const LoadIndex> index = scene::loadIndexOf(plan.terrain);
+  if (!index || !(index->tiles || index->patches || index->trees))
     faults.push_back(fault("--terrain", "a database of Trimtab, whose levels can be counted without drawing",
                            plan.terrainName));
   return faults;

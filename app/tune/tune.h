@@ -54,7 +54,7 @@ struct Tuned {
   std::string name;
   Role role = Role::found;
   ValidatedParameters parameters = defaultParameters();
-  /// By flight, those that the search saw first.
+  /// One entry a flight: first the flights that the search saw, then those held out.
   std::vector<Estimate> estimates;
   std::vector<harness::AnswerRow> measured;
   /// What the preset moved: keys with the values of start and preset.
