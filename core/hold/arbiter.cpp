@@ -56,20 +56,6 @@ struct Choice {
   Settings<2> blur;
 };
 
-/// Returns the part of the loss from 1 to 16 px that lies between two errors, of which the first may not be
-/// smaller. The power is that of FLIP over Kansai, which rises by 0.0025, 0.011 and 0.033 from 1 px to 2, 4
-/// and 8 px.
-double errorLoss(double errorPx, double freePx) {
-  const auto power = [](double px) { return px * std::sqrt(px); };
-  return std::max(power(errorPx) - power(freePx), 0.0) / (power(16) - power(1));
-}
-
-/// Returns the part of the loss from full scale to half. Any smaller scale blurs the finest detail at once:
-/// 0.7 already loses two thirds of what 0.5 does.
-double scaleLoss(double scale, double fullScale) {
-  return std::sqrt(std::max(fullScale / scale - 1, 0.0));
-}
-
 Choice choiceOf(const HoldGiven& given, const HoldParameters& p) {
   Choice c;
   const HeldLevers& asked = given.asked;
@@ -217,6 +203,15 @@ bool isNumber(const HoldGiven& g) {
 
 double rememberedMs(const HoldParameters& p) {
   return p.calm.value() + kMostBuildingMs;
+}
+
+double errorLoss(double errorPx, double freePx) {
+  const auto power = [](double px) { return px * std::sqrt(px); };
+  return std::max(power(errorPx) - power(freePx), 0.0) / (power(16) - power(1));
+}
+
+double scaleLoss(double scale, double fullScale) {
+  return std::sqrt(std::max(fullScale / scale - 1, 0.0));
 }
 
 double errorAtPlace(std::uint8_t place, double askedPx) {

@@ -11,18 +11,33 @@ std::optional<TerrainForm> formOf(const FrameRequest& r, const LoadIndex& index)
   return formDrawn(r, {index.tiles != nullptr, index.patches != nullptr, index.trees != nullptr});
 }
 
+/// Returns the share of the load that is left where the error is 2^octaves times as large: from octave to
+/// octave by a constant factor, and beyond the shape what its ends are.
+double shareAt(const LoadShape& shape, double octaves) {
+  const double at = std::clamp(octaves, 0.0, static_cast<double>(shape.size() - 1));
+  const std::size_t low = std::min(static_cast<std::size_t>(at), shape.size() - 2);
+  return shape[low] * std::pow(shape[low + 1] / shape[low], at - static_cast<double>(low));
+}
+
 /// Returns what an image may draw of a scene whose levels are not known, as one of OpenSceneGraph: the last
-/// image's triangles, and half as many for each octave by which the allowed error is larger.
-TriangleLadder ladderFromLast(double triangles, double drawnPx, double askedPx) {
+/// image's triangles, and less by the shape where the allowed error is larger.
+TriangleLadder ladderFromLast(double triangles, double drawnPx, double askedPx, const LoadShape& shape) {
   TriangleLadder ladder;
-  ladder[0] = triangles * drawnPx / askedPx;
+  ladder[0] = triangles / shareAt(shape, std::log2(drawnPx / askedPx));
   for (std::size_t k = 1; k < kErrorSteps; ++k)
-    ladder[k] = ladder[0] *
-                std::exp2(-(placesToNext(askedPx) + static_cast<double>(k - 1)) / double{kPlacesPerOctave});
+    ladder[k] = ladder[0] * shareAt(shape, (placesToNext(askedPx) + static_cast<double>(k - 1)) /
+                                               double{kPlacesPerOctave});
   return ladder;
 }
 
 }  // namespace
+
+double groundMpxOf(const LocalFrame& frame, const ViewShape& view, const ComingEye& eye) {
+  const EyePose pose{frame.fromGeodetic(eye.position), eyeAxes(frame, eye.position, eye.attitude)};
+  const Vec3 up = frame.ecefToLocal() * eastNorthUp(eye.position.latitude, eye.position.longitude).row[2];
+  return 1e-6 * view.widthPx * view.heightPx *
+         shareBelowHorizon({pose, view}, up, eye.position.height.value());
+}
 
 void FrameHold::setIndex(std::shared_ptr<const LoadIndex> index) {
   index_ = std::move(index);
@@ -62,7 +77,8 @@ TriangleLadder FrameHold::count(const FrameRequest& request, const LoadView& vie
 TriangleLadder FrameHold::countGround(const FrameRequest& request, const LoadView& view) {
   const std::optional<TerrainForm> form = formOf(request, *index_);
   const double askedPx = request.levers.policy.errorPx;
-  if (!form) return ladderFromLast(lastTriangles_, held_.errorPx > 0 ? held_.errorPx : askedPx, askedPx);
+  if (!form)
+    return ladderFromLast(lastTriangles_, held_.errorPx > 0 ? held_.errorPx : askedPx, askedPx, shape_);
   TriangleLadder ladder;
   if (*form == TerrainForm::static_trees) {
     ladder = countTriangles(*index_->trees, treeErrorOf(request.staticLod.error), view,
@@ -74,13 +90,6 @@ TriangleLadder FrameHold::countGround(const FrameRequest& request, const LoadVie
   const CutRule rule = cutKeyOf(request, view.eye.position, 1).rule;
   return *form == TerrainForm::patches ? countTriangles(*index_->patches, view, rule, askedPx, stack_)
                                        : countTriangles(*index_->tiles, view, rule, askedPx, stack_);
-}
-
-double FrameHold::groundMpx(const FrameRequest& request, const LoadView& view, const ComingEye& eye) const {
-  const Vec3 up =
-      index_->frame.ecefToLocal() * eastNorthUp(eye.position.latitude, eye.position.longitude).row[2];
-  return 1e-6 * request.view.widthPx * request.view.heightPx *
-         shareBelowHorizon(view, up, eye.position.height.value());
 }
 
 HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye> coming, double budgetMs) {
@@ -101,14 +110,14 @@ HoldGiven FrameHold::look(const FrameRequest& request, std::span<const ComingEye
     const ComingEye here{request.eye, request.attitude};
     const LoadView view = viewOf(request, here);
     countedNow_ = count(request, view);
-    groundNowMpx_ = groundMpx(request, view, here);
+    groundNowMpx_ = groundMpxOf(index_->frame, request.view, here);
   }
   g.triangles = countedNow_;
   g.groundMpx = groundNowMpx_;
   for (std::size_t i = 0; index_ && i < coming.size(); ++i) {
     const LoadView next = viewOf(request, coming[i]);
     const TriangleLadder ladder = count(request, next);
-    const double ground = groundMpx(request, next, coming[i]);
+    const double ground = groundMpxOf(index_->frame, request.view, coming[i]);
     if (i + 1 == kImagesAhead) {
       prediction.triangles = ladder;
       for (double& triangles : prediction.triangles) triangles *= correction_;

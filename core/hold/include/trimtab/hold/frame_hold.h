@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -27,11 +28,22 @@ struct HoldOutcome {
   double predictedMs = 0, halfBandMs = 0, ms = 0;
 };
 
+/// The share of an image's load that is left where the allowed error is 1, 2, 4, 8 and 16 times as large, of
+/// a scene whose levels nobody can count; all are above 0. What no fit has measured halves from octave to
+/// octave.
+using LoadShape = std::array<double, 5>;
+inline constexpr LoadShape kHalvedLoad{1, 0.5, 0.25, 0.125, 0.0625};
+
+/// Returns the millions of pixels of an image that lie below the horizon of a smooth earth.
+double groundMpxOf(const LocalFrame& frame, const ViewShape& view, const ComingEye& eye);
+
 class FrameHold {
  public:
   /// Sets what triangles are counted in; null counts none, and the triangles of the last image are expected
   /// again, whatever error is allowed.
   void setIndex(std::shared_ptr<const LoadIndex> index);
+  /// Sets by what the load falls where an index has no form to count in.
+  void setLoadShape(const LoadShape& shape) { shape_ = shape; }
 
   /// Gathers what the arbitration of a request depends on. `coming` are the eyes of the next images, the
   /// nearest first, and `outcomesAhead` of them counts for outcome(). `budgetMs` is the preset's.
@@ -72,7 +84,6 @@ class FrameHold {
   const std::vector<float>& treeErrorOf(ErrorMeasure measure);
   void collect(const FrameRequest& request, const LoadView& view, double errorScale);
   LoadView viewOf(const FrameRequest& request, const ComingEye& eye) const;
-  double groundMpx(const FrameRequest& request, const LoadView& view, const ComingEye& eye) const;
 
   /// A prediction that waits for its image.
   struct Prediction {
@@ -83,6 +94,7 @@ class FrameHold {
   };
 
   std::shared_ptr<const LoadIndex> index_;
+  LoadShape shape_ = kHalvedLoad;
   std::optional<ErrorMeasure> measure_;
   std::vector<float> treeError_;  ///< of the trees, by `measure_`
   std::vector<std::uint64_t> stack_;
