@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "trimtab/host/decoder.h"
 #include "trimtab/measure/trace_file.h"
+#include "trimtab/rig/fit_flight.h"
 #include "trimtab/session/session.h"
 #include "trimtab/trimtab.h"
 
@@ -22,6 +24,24 @@ struct trimtab_findings {
 
 struct trimtab_preset {
   trimtab::ValidatedParameters parameters;
+};
+
+struct trimtab_profile {
+  trimtab::IgProfile profile;
+};
+
+struct trimtab_fit {
+  trimtab::IgFit fit;
+};
+
+/// A fit while it is flown.
+struct trimtab_fitting {
+  trimtab_fitting(const trimtab::IgProfile& profile, std::string target)
+      : flight(profile), file(std::move(target)) {}
+  trimtab::FitFlight flight;
+  std::string file;
+  std::optional<trimtab::FrameRequest> view;  ///< that is drawn again and again
+  std::size_t written = 0;                    ///< views in the file
 };
 
 struct trimtab_session {
@@ -45,6 +65,8 @@ struct trimtab_session {
   std::optional<trimtab::LeverChain> chain;  ///< of the newest state, once it is asked for
   std::optional<trimtab::TraceFile> trace;
   std::vector<trimtab::TraceRow> rows;
+  std::optional<trimtab::IgProfile> profile;
+  std::optional<trimtab_fitting> fitting;
 };
 
 namespace trimtab::c {
@@ -85,12 +107,19 @@ inline constexpr std::size_t kFindingSize = offsetof(trimtab_finding, found) + s
                              kImageSize = offsetof(trimtab_image, near_m) + sizeof(double),
                              kFrameSize = offsetof(trimtab_frame, nodes) + sizeof(std::uint64_t),
                              kLeverSize = offsetof(trimtab_lever, unit) + sizeof(const char*),
+                             kOwnLeverSize = offsetof(trimtab_own_lever, neutral) + sizeof(double),
                              kDecisionSize = offsetof(trimtab_decision, near_far_ratio) + sizeof(double);
 
 /// Hands findings over, if the caller wants them.
 void give(trimtab_findings** to, Findings findings);
 /// Writes a line as snprintf does, and returns its whole length.
 std::size_t give(char* text, std::size_t capacity, std::string_view line);
+
+/// Gives a new session the profile of the environment, and begins its fit.
+trimtab_status beginAsTold(trimtab_session& session);
+/// Requests the image of a fit, which stays in its view; and takes what it cost.
+std::optional<FrameRequest> requestOf(trimtab_session& session, double now, int widthPx, int heightPx);
+void finishFitted(trimtab_session& session, const FrameCost& cost, double load);
 
 trimtab_state unknownState();
 AircraftState toState(const trimtab_state& state);

@@ -28,13 +28,18 @@ void trimtab_session::writeRows(bool all) {
 trimtab_status trimtab_session_create(const trimtab_preset* preset, trimtab_session** session) {
   if (preset == nullptr || session == nullptr) return TRIMTAB_MISUSE;
   return c::guarded([&] {
-    *session = new trimtab_session(preset->parameters);
-    return TRIMTAB_OK;
+    auto made = std::make_unique<trimtab_session>(preset->parameters);
+    const trimtab_status begun = c::beginAsTold(*made);
+    if (begun == TRIMTAB_OK) *session = made.release();
+    return begun;
   });
 }
 
 void trimtab_session_free(trimtab_session* session) {
-  if (session != nullptr) trimtab_session_trace_finish(session, nullptr);
+  if (session != nullptr) {
+    trimtab_session_trace_finish(session, nullptr);
+    trimtab_session_fit_finish(session, nullptr);
+  }
   delete session;
 }
 
@@ -111,7 +116,7 @@ const char* trimtab_session_link(const trimtab_session* session, double nowS) {
 }
 
 std::int32_t trimtab_session_needs_image(const trimtab_session* session, double nowS) {
-  return session != nullptr && session->session.needsImage(nowS) ? 1 : 0;
+  return session != nullptr && (session->fitting || session->session.needsImage(nowS)) ? 1 : 0;
 }
 
 trimtab_status trimtab_session_request(trimtab_session* session, double nowS, std::int32_t windowWidthPx,
@@ -119,7 +124,7 @@ trimtab_status trimtab_session_request(trimtab_session* session, double nowS, st
   if (session == nullptr || windowWidthPx < 1 || windowHeightPx < 1) return TRIMTAB_MISUSE;
   if (image != nullptr && image->size < c::kImageSize) return TRIMTAB_MISUSE;
   return c::guarded([&] {
-    session->image = session->session.request(nowS, windowWidthPx, windowHeightPx);
+    session->image = c::requestOf(*session, nowS, windowWidthPx, windowHeightPx);
     if (!session->image) return TRIMTAB_NOTHING;
     const FrameRequest& r = *session->image;
     if (image != nullptr)
@@ -153,8 +158,16 @@ trimtab_status trimtab_session_finished(trimtab_session* session, const trimtab_
     result.cost.draw = given.draw_ms;
     result.cost.gpu = given.gpu_ms;
     result.visible.triangles = given.triangles;
+    if (session->profile)
+      result.visible.triangles =
+          static_cast<std::uint64_t>(loadOf(*session->profile, static_cast<double>(given.triangles),
+                                            static_cast<double>(given.nodes), workMs(result.cost)));
     result.visible.vertices = given.vertices;
     result.tilesInCut = given.nodes;
+    if (session->fitting) {
+      c::finishFitted(*session, result.cost, static_cast<double>(result.visible.triangles));
+      return TRIMTAB_OK;
+    }
     session->session.finished(result, nowS);
     session->writeRows(false);
     return TRIMTAB_OK;

@@ -94,7 +94,7 @@ TEST(Abi, exportsWhatTheHeaderDeclaresAndNothingElse) {
     if (symbol.starts_with("trimtab_") || symbol.find("@@") != std::string::npos)
       exported.insert(symbol.substr(0, symbol.find('@')));
     else
-      EXPECT_EQ(symbol, "TRIMTAB_1");
+      EXPECT_TRUE(symbol == "TRIMTAB_1" || symbol == "TRIMTAB_2") << symbol;
   EXPECT_GT(declared.size(), 30u);
   EXPECT_EQ(exported, declared);
 }

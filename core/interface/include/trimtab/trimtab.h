@@ -13,7 +13,7 @@
  * Threads: a session belongs to one thread at a time. Presets and findings never change after they are made, and any
  * thread may read them. Calls with different handles may run at once.
  * Memory: functions marked "each frame" allocate nothing once the session has warmed up, unless the preset shows
- * symbols, holds a budget or a trace is written.
+ * symbols, holds a budget, a trace is written or a fit is flown.
  * Errors: no function ends the program or throws. A null handle or a null pointer where one is needed is
  * TRIMTAB_MISUSE, and TRIMTAB_FAILED is a lack of memory.
  * Structs: the caller sets `size` to sizeof the struct before every call. Later versions only append fields, so that a
@@ -79,14 +79,55 @@ trimtab_status trimtab_preset_parse(const char* text, size_t length, const char*
                                     trimtab_findings** findings);
 void trimtab_preset_free(trimtab_preset* preset);
 
+/* ---- This image generator: what it has (a profile), and what a flight on it has taught (a fit). Files of
+ * both are JSON; integrating.md says what is in them. */
+
+typedef struct trimtab_profile trimtab_profile;
+typedef struct trimtab_fit trimtab_fit;
+
+trimtab_status trimtab_profile_load(const char* file, trimtab_profile** profile, trimtab_findings** findings);
+void trimtab_profile_free(trimtab_profile* profile);
+
+/* A lever as the image generator has it. Its values are in its own unit. */
+typedef struct trimtab_own_lever {
+  size_t size;
+  const char* key;     /* Trimtab's: "lod_scale" */
+  const char* own_key; /* the image generator's: "LODScale" */
+  const char* own_unit;
+  double from, to, neutral;
+} trimtab_own_lever;
+
+size_t trimtab_profile_lever_count(const trimtab_profile* profile); /* 0 for null */
+/* Fills in lever `i`; its strings live as long as the profile. */
+trimtab_status trimtab_profile_lever(const trimtab_profile* profile, size_t i, trimtab_own_lever* out);
+
+trimtab_status trimtab_fit_load(const char* file, trimtab_fit** fit, trimtab_findings** findings);
+void trimtab_fit_free(trimtab_fit* fit);
+
+/* Makes another preset that decides nothing which the profile's image generator lacks and, if `fit` is not
+ * null, whose terms lie over the load of this image generator. The findings are notes that name each change;
+ * a fit of another image generator is refused. */
+trimtab_status trimtab_preset_adapt(const trimtab_preset* preset, const trimtab_profile* profile,
+                                    const trimtab_fit* fit, trimtab_preset** adapted,
+                                    trimtab_findings** findings);
+
 /* ---- Sessions. */
 
+/* If the environment has TRIMTAB_PROFILE, the session begins with that file's profile; if it also has
+ * TRIMTAB_FIT, it begins a fit to that file. So a program that draws the eye and the levers of its session is
+ * fitted as it is. A file that cannot be used is TRIMTAB_REFUSED, and why is written to standard error. */
 trimtab_status trimtab_session_create(const trimtab_preset* preset, trimtab_session** session);
 void trimtab_session_free(trimtab_session* session); /* ends a trace, whose last findings are lost */
 /* Sets an edited preset for the next state on. The memory stays, and so does the choice of protocol and aircraft. */
 trimtab_status trimtab_session_set_preset(trimtab_session* session, const trimtab_preset* preset);
 /* Forgets states, memory and host, for a new flight. */
 trimtab_status trimtab_session_restart(trimtab_session* session);
+
+/* Tells the session which levers the image generator has and what it reports of an image, and with a fit (may
+ * be null) what images cost and by what their load falls, so that a budget holds from the first image on.
+ * Both are copied. */
+trimtab_status trimtab_session_set_profile(trimtab_session* session, const trimtab_profile* profile,
+                                           const trimtab_fit* fit);
 
 /* What a host says about the aircraft. trimtab_state_clear makes all optional parts unknown. */
 typedef struct trimtab_state {
@@ -179,6 +220,11 @@ trimtab_status trimtab_session_levers(trimtab_session* session, trimtab_step ste
 /* Each frame. One lever as it is to be drawn, and the last step that changed it (may be null). */
 trimtab_status trimtab_session_lever(trimtab_session* session, const char* key, double* value, trimtab_step* step);
 
+/* Each frame. Fills in the first `count` levers of the session's profile, in its order, in the image
+ * generator's own units and within its ranges. Without a screen_space_error of its own, its lod_scale takes
+ * that factor too. TRIMTAB_MISUSE without a profile. */
+trimtab_status trimtab_session_own_levers(trimtab_session* session, double* values, size_t count);
+
 /* What a decision says beside the levers. Strings are names that never go away. */
 typedef struct trimtab_decision {
   size_t size;
@@ -214,6 +260,25 @@ size_t trimtab_session_explain_host(const trimtab_session* session, char* text, 
 /* Begins a trace; it appears under its name when it is finished, until then it is FILE.part. */
 trimtab_status trimtab_session_trace_start(trimtab_session* session, const char* file, trimtab_findings** findings);
 trimtab_status trimtab_session_trace_finish(trimtab_session* session, trimtab_findings** findings);
+
+/* ---- Fits: the session draws each view of a flight with every lever neutral, and once for each setting of
+ * each lever. The program's loop stays as it is, if it draws the eye of trimtab_image: the session requests
+ * the same view again until it has all settings of it, whatever states arrive meanwhile. A view takes some
+ * twenty images, a fit at least twenty views. No trace rows are made. */
+
+/* Begins a fit; the session needs a profile. What is known is written to `file` every few views. */
+trimtab_status trimtab_session_fit_start(trimtab_session* session, const char* file,
+                                         trimtab_findings** findings);
+/* Returns how many views are complete; 0 without a fit. */
+size_t trimtab_session_fit_views(const trimtab_session* session);
+/* Gives the image that was drawn, RGBA of one byte each in rows without gaps, before
+ * trimtab_session_finished. Then the fit also says what each lever costs the image, and how many pixels the
+ * neutral level of detail stands for. The bytes are copied, where they count. */
+trimtab_status trimtab_session_fit_picture(trimtab_session* session, const void* rgba, int32_t width_px,
+                                           int32_t height_px);
+/* Ends the fit and writes its file. Too few views, or no times, are refused. Freeing the session does so too.
+ */
+trimtab_status trimtab_session_fit_finish(trimtab_session* session, trimtab_findings** findings);
 
 #ifdef __cplusplus
 }
