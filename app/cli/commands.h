@@ -27,6 +27,7 @@ void addBench(CLI::App& app, int& exitCode);
 void addResults(CLI::App& app, int& exitCode);
 void addExperiment(CLI::App& app, int& exitCode);
 void addLeverage(CLI::App& app, int& exitCode);
+void addFit(CLI::App& app, int& exitCode);
 void addTune(CLI::App& app, int& exitCode);
 void addWeather(CLI::App& app, int& exitCode);
 

@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   trimtab::cli::addResults(app, exitCode);
   trimtab::cli::addExperiment(app, exitCode);
   trimtab::cli::addLeverage(app, exitCode);
+  trimtab::cli::addFit(app, exitCode);
   trimtab::cli::addTune(app, exitCode);
   trimtab::cli::addWeather(app, exitCode);
   app.parse_complete_callback([&app] {

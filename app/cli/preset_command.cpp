@@ -1,5 +1,3 @@
-#include <cstdlib>
-#include <ctime>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -56,17 +54,6 @@ int check(const PresetOptions& options) {
   return good ? kDone : kRefused;
 }
 
-/// Now, or the time that reproducible builds ask for, as ISO 8601 UTC.
-std::string timestamp() {
-  std::time_t now = std::time(nullptr);
-  if (const char* const fixed = std::getenv("SOURCE_DATE_EPOCH"))
-    now = static_cast<std::time_t>(std::atoll(fixed));
-  std::tm utc{};
-  char text[sizeof "-2147483648-12-31T23:59:59Z"];
-  if (!gmtime_r(&now, &utc) || std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0) return "";
-  return text;
-}
-
 /// Uses --format, else the file's ending, else JSON, and warns if the ending says something else.
 ExportFormat exportFormat(const PresetOptions& options) {
   const std::string ending =
@@ -103,8 +90,8 @@ int exportPreset(PresetOptions options) {
     report({f});
   }
   if (!validated) return kRefused;
-  options.provenance.created = timestamp();
-  options.provenance.program = "trimtab-cli " TRIMTAB_VERSION;
+  const Provenance now = provenanceNow();
+  options.provenance.created = now.created, options.provenance.program = now.program;
   if (const std::string note = machineNote(**validated); !note.empty()) {
     report({{Severity::note, options.left, "culling.occlusion",
              "a method by name, as --set culling.occlusion=horizon, to do alike on every machine", "auto"}});

@@ -1,6 +1,8 @@
 #include "settings.h"
 
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include <iostream>
 
 #include "commands.h"
@@ -27,6 +29,18 @@ Findings applySettings(const std::vector<std::string>& settings, TuningParameter
       }
   }
   return findings;
+}
+
+Provenance provenanceNow() {
+  std::time_t now = std::time(nullptr);
+  if (const char* const fixed = std::getenv("SOURCE_DATE_EPOCH"))
+    now = static_cast<std::time_t>(std::atoll(fixed));
+  std::tm utc{};
+  char text[sizeof "-2147483648-12-31T23:59:59Z"] = "";
+  if (!gmtime_r(&now, &utc) || std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc) == 0)
+    *text = '\0';
+  return {
+      .author = {}, .created = text, .program = "trimtab-cli " TRIMTAB_VERSION, .terrain = {}, .comment = {}};
 }
 
 bool parseSize(const std::string& text, int& width, int& height) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/harness/run.h"
-#include "trimtab/preset/table.h"
+#include "trimtab/preset/preset.h"
 
 namespace CLI {
 class App;
@@ -20,6 +20,10 @@ Findings applySettings(const std::vector<std::string>& settings, TuningParameter
 /// findings on standard error and returns nothing.
 std::optional<ValidatedParameters> parametersFor(const std::string& preset,
                                                  const std::vector<std::string>& settings);
+
+/// Returns the provenance of what this program exports: the time is now, or what reproducible builds ask for,
+/// as ISO 8601 UTC.
+Provenance provenanceNow();
 
 /// Reads a size in pixels such as "1280x720". Returns false unless both sides are 16 to 16384.
 bool parseSize(const std::string& text, int& width, int& height);

@@ -162,6 +162,10 @@ std::size_t trimtab_session_fit_views(const trimtab_session* session) {
   return session == nullptr || !session->fitting ? 0 : session->fitting->flight.views();
 }
 
+std::int32_t trimtab_session_fit_wants_picture(const trimtab_session* session) {
+  return session != nullptr && session->fitting && session->fitting->flight.wantsPicture() ? 1 : 0;
+}
+
 trimtab_status trimtab_session_fit_picture(trimtab_session* session, const void* rgba, std::int32_t widthPx,
                                            std::int32_t heightPx) {
   if (session == nullptr || rgba == nullptr || widthPx < 1 || heightPx < 1) return TRIMTAB_MISUSE;

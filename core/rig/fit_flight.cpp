@@ -35,6 +35,9 @@ std::vector<double> towards(double neutral, double end) {
   return values;
 }
 
+/// A smaller shift is not told from none.
+constexpr double kSeenPx = 0.1;
+
 double median(const std::vector<double>& samples) {
   return quantileOf(samples, 0.5);
 }
@@ -52,7 +55,11 @@ FitFlight::FitFlight(IgProfile profile) : profile_(std::move(profile)) {
 }
 
 std::size_t FitFlight::imagesPerView() const {
-  return taken_.size() * (static_cast<std::size_t>(profile_.settleImages) + kCounted);
+  return taken_.size() * perSetting();
+}
+
+std::size_t FitFlight::perSetting() const {
+  return static_cast<std::size_t>(profile_.settleImages) + kCounted;
 }
 
 /// Returns the number of the setting of a turn; 0 is neutral. Each view begins with another one, so that what
@@ -71,20 +78,22 @@ void FitFlight::setLevers(FrameRequest& request) const {
   for (const IgLever& lever : profile_.levers)
     if (lever.names().value != nullptr) base.*lever.names().value = lever.neutral();
   request.levers = {base, base, base, base, base};
-  const Setting& setting = settingAt(inView_ / (imagesPerView() / taken_.size()));
+  const Setting& setting = settingAt(inView_ / perSetting());
   if (setting.lever != nullptr) request.levers.drawn.*setting.lever->names().value = setting.value;
 }
 
+bool FitFlight::wantsPicture() const {
+  return inView_ % perSetting() + 1 == perSetting();
+}
+
 void FitFlight::picture(std::span<const std::uint8_t> rgba, int width, int height) {
-  const std::size_t perSetting = imagesPerView() / taken_.size();
-  if (inView_ % perSetting + 1 != perSetting) return;
-  taken_[numberAt(inView_ / perSetting)].seen = {{rgba.begin(), rgba.end()}, width, height};
+  if (!wantsPicture()) return;
+  taken_[numberAt(inView_ / perSetting())].seen = {{rgba.begin(), rgba.end()}, width, height};
 }
 
 void FitFlight::finished(const FrameRequest& drawn, const FrameCost& cost, double load) {
-  const std::size_t perSetting = imagesPerView() / taken_.size();
-  Taken& taken = taken_[numberAt(inView_ / perSetting)];
-  const std::size_t image = inView_ % perSetting, settled = perSetting - kCounted;
+  Taken& taken = taken_[numberAt(inView_ / perSetting())];
+  const std::size_t image = inView_ % perSetting(), settled = perSetting() - kCounted;
   if (image == 0) cost_.leversMoved();
   if (image >= settled) {
     const FrameLevers& levers = drawn.levers.drawn;
@@ -136,7 +145,7 @@ LoadShape FitFlight::shape() const {
 double FitFlight::neutralPx() const {
   std::vector<double> px;
   for (const Setting& s : settings_)
-    if (s.lever == profile_.errorLever() && !s.shiftPx.empty())
+    if (s.lever == profile_.errorLever() && !s.shiftPx.empty() && median(s.shiftPx) >= kSeenPx)
       px.push_back(median(s.shiftPx) / std::abs(s.value / s.lever->neutral() - 1));
   return median(px);
 }

@@ -271,6 +271,8 @@ trimtab_status trimtab_session_fit_start(trimtab_session* session, const char* f
                                          trimtab_findings** findings);
 /* Returns how many views are complete; 0 without a fit. */
 size_t trimtab_session_fit_views(const trimtab_session* session);
+/* Returns 1 if the image that was requested last counts, so that its pixels are worth reading; else 0. */
+int32_t trimtab_session_fit_wants_picture(const trimtab_session* session);
 /* Gives the image that was drawn, RGBA of one byte each in rows without gaps, before
  * trimtab_session_finished. Then the fit also says what each lever costs the image, and how many pixels the
  * neutral level of detail stands for. The bytes are copied, where they count. */

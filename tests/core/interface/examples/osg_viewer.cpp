@@ -1,9 +1,10 @@
 // An image generator of osgViewer that follows a preset, over any geocentric scene that osgDB reads
-// (osgdem's, TerraPage's). Trimtab sets its LOD scale and its far distance; a budget holds by the triangles
-// that OSG's statistics count.
+// (osgdem's, TerraPage's). Trimtab sets its LOD scale and its far distance, which osg_viewer.json tells of; a
+// budget holds by the triangles that OSG's statistics count, the sooner if a fit has been flown:
 //
 //     c++ -std=c++17 osg_viewer.cpp $(pkg-config --cflags --libs openscenegraph trimtab) -o osg_viewer
-//     osg_viewer PRESET SCENE TABLE
+//     trimtab-cli fit --profile osg_viewer.json --preset P -o DIR -- osg_viewer {preset} SCENE TABLE
+//     osg_viewer.json osg_viewer DIR/fitted.json SCENE TABLE osg_viewer.json DIR/fit.json
 //
 // A row of TABLE is: seconds, latitude, longitude (degrees), height (m), heading, pitch, roll, and head
 // heading, pitch and roll (degrees, nan for none). It prints a line per image: LOD scale, triangles,
@@ -43,10 +44,23 @@ std::uint64_t trianglesOf(osgViewer::Viewer& viewer) {
   return static_cast<std::uint64_t>(triangles);
 }
 
+/// Gives a fit the image, before it is shown.
+struct Picture : osg::Camera::DrawCallback {
+  explicit Picture(trimtab_session* session) : session_(session) {}
+  void operator()(osg::RenderInfo& info) const override {
+    if (trimtab_session_fit_wants_picture(session_) == 0) return;
+    const osg::Viewport& port = *info.getCurrentCamera()->getViewport();
+    image_->readPixels(0, 0, port.width(), port.height(), GL_RGBA, GL_UNSIGNED_BYTE);
+    trimtab_session_fit_picture(session_, image_->data(), image_->s(), image_->t());
+  }
+  trimtab_session* session_;
+  osg::ref_ptr<osg::Image> image_ = new osg::Image;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) return std::fputs("usage: osg_viewer PRESET SCENE TABLE\n", stderr), 2;
+  if (argc < 5) return std::fputs("usage: osg_viewer PRESET SCENE TABLE PROFILE [FIT]\n", stderr), 2;
   trimtab_preset* loaded = nullptr;
   if (trimtab_preset_load(argv[1], &loaded, nullptr) != TRIMTAB_OK)
     return std::fputs("no preset\n", stderr), 1;
@@ -67,10 +81,17 @@ int main(int argc, char** argv) {
   camera.setProjectionResizePolicy(osg::Camera::FIXED);
   camera.getStats()->collectStats("scene", true);
 
-  const std::size_t lodScale = trimtab_lever_find("lod_scale"),
-                    error = trimtab_lever_find("screen_space_error"),
-                    farM = trimtab_lever_find("far_distance");
-  std::vector<double> asked(trimtab_lever_count()), drawn(asked.size());
+  trimtab_profile* profile = nullptr;
+  trimtab_fit* fit = nullptr;
+  if (trimtab_profile_load(argv[4], &profile, nullptr) != TRIMTAB_OK)
+    return std::fputs("no profile\n", stderr), 1;
+  if (argc > 5 && trimtab_fit_load(argv[5], &fit, nullptr) != TRIMTAB_OK)
+    return std::fputs("no fit\n", stderr), 1;
+  trimtab_session_set_profile(session.get(), profile, fit);  // not while it flies a fit
+  trimtab_profile_free(profile);
+  trimtab_fit_free(fit);
+  double own[2];  // in the order of the profile's levers: LODScale, far distance
+  camera.setFinalDrawCallback(new Picture(session.get()));
   trimtab_state s{};
   s.size = sizeof s;
   trimtab_state_clear(&s);
@@ -90,20 +111,17 @@ int main(int argc, char** argv) {
     ++s.packet;
     trimtab_session_fly(session.get(), &s);
     trimtab_session_request(session.get(), s.time_s, kWidth, kHeight, &image);
-    trimtab_session_levers(session.get(), TRIMTAB_STEP_PRESET, asked.data(), asked.size());
-    trimtab_session_levers(session.get(), TRIMTAB_STEP_BUDGET, drawn.data(), drawn.size());
-    // The budget allows a larger error; the ranges of OSG's levels shrink by the same factor.
-    const double scale = drawn[lodScale] * drawn[error] / asked[error];
-    camera.setLODScale(static_cast<float>(scale));
+    trimtab_session_own_levers(session.get(), own, 2);
+    camera.setLODScale(static_cast<float>(own[0]));
     camera.setViewMatrix(viewOf(image));
-    const double n = image.near_m, most = std::isfinite(drawn[farM]) ? drawn[farM] : 1e6;
+    const double n = image.near_m;
     camera.setProjectionMatrixAsFrustum(image.left * n, image.right * n, image.bottom * n, image.top * n, n,
-                                        most);
+                                        own[1] * 1000);
     const osg::Timer_t start = osg::Timer::instance()->tick();
     viewer.frame();
     frame.total_ms = frame.draw_ms = osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
     frame.triangles = trianglesOf(viewer);
     trimtab_session_finished(session.get(), &frame, s.time_s);
-    std::printf("%g %llu %.3f\n", scale, static_cast<unsigned long long>(frame.triangles), frame.total_ms);
+    std::printf("%g %llu %.3f\n", own[0], static_cast<unsigned long long>(frame.triangles), frame.total_ms);
   }
 }

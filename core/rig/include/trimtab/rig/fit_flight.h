@@ -21,6 +21,8 @@ class FitFlight {
   void setLevers(FrameRequest& request) const;
   /// Reports whether the next image is to be of the same view as the last.
   bool staysInView() const { return inView_ > 0; }
+  /// Reports whether the next image is one whose picture counts.
+  bool wantsPicture() const;
   /// Takes the image that was drawn, RGBA8 in rows without gaps. Call it before finished(); it is ignored for
   /// images that do not count. Images of one view have one size.
   void picture(std::span<const std::uint8_t> rgba, int width, int height);
@@ -53,6 +55,7 @@ class FitFlight {
 
   const Setting& settingAt(std::size_t turn) const;
   std::size_t numberAt(std::size_t turn) const;
+  std::size_t perSetting() const;  ///< images
   void completeView();
   LoadShape shape() const;
   double neutralPx() const;

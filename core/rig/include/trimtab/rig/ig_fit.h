@@ -31,8 +31,8 @@ struct IgFit {
   double loadLow = 0, loadHigh = 0;  ///< 5th and 95th percentile of their load, in the unit of IgLoad
   std::vector<LeverPoint> points;    ///< lever by lever, from the neutral value on
   LoadShape shape = kHalvedLoad;     ///< of the lever that an allowed error moves
-  double neutralPx =
-      std::numeric_limits<double>::quiet_NaN();  ///< the error that its neutral value stands for
+  double neutralPx = std::numeric_limits<double>::quiet_NaN();  ///< the error that its neutral value stands
+                                                                ///< for; NaN if none was seen
   CostModel::State cost;
 };
 

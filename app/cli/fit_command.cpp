@@ -1,0 +1,175 @@
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "commands.h"
+#include "progress.h"
+#include "settings.h"
+#include "trimtab/preset/file_io.h"
+#include "trimtab/preset/stop_request.h"
+#include "trimtab/rig/fitted_preset.h"
+#include "trimtab/rig/limited_preset.h"
+
+namespace trimtab::cli {
+namespace {
+
+using namespace std::chrono_literals;
+namespace fs = std::filesystem;
+
+struct FitOptions {
+  std::string profile, preset = "default", flight, output;
+  std::vector<std::string> command;
+};
+
+/// The image generator while it flies a fit, in an environment that asks libtrimtab for one.
+class Generator {
+ public:
+  /// Starts it; `error` is then 0.
+  Generator(const std::vector<std::string>& command, const std::string& profile, const fs::path& fit) {
+    std::vector<std::string> settings{"TRIMTAB_PROFILE=" + fs::absolute(profile).string(),
+                                      "TRIMTAB_FIT=" + fs::absolute(fit).string()};
+    std::vector<char*> arguments, environment;
+    std::vector<std::string> words = command;
+    for (std::string& word : words) arguments.push_back(word.data());
+    for (std::string& setting : settings) environment.push_back(setting.data());
+    for (char** each = environ; *each != nullptr; ++each)
+      if (std::strncmp(*each, "TRIMTAB_PROFILE=", 16) != 0 && std::strncmp(*each, "TRIMTAB_FIT=", 12) != 0)
+        environment.push_back(*each);
+    arguments.push_back(nullptr), environment.push_back(nullptr);
+    posix_spawn_file_actions_t actions;  // what it prints is no result of ours
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+    error = posix_spawnp(&process_, arguments[0], &actions, nullptr, arguments.data(), environment.data());
+    posix_spawn_file_actions_destroy(&actions);
+  }
+  /// Reports whether it has ended; `status` is then as waitpid() gives it.
+  bool hasEnded() { return waitpid(process_, &status, WNOHANG) == process_; }
+  void end() {
+    ::kill(process_, SIGTERM);
+    for (int i = 0; i < 30; ++i, std::this_thread::sleep_for(100ms))
+      if (hasEnded()) return;
+    ::kill(process_, SIGKILL);
+    waitpid(process_, &status, 0);
+  }
+  int error = 0, status = 0;
+
+ private:
+  pid_t process_ = -1;
+};
+
+/// Returns the command with the names of files in place of {preset} and {flight}.
+std::vector<std::string> filledIn(std::vector<std::string> command, const std::string& preset,
+                                  const std::string& flight) {
+  for (std::string& word : command)
+    for (const auto& [name, file] : {std::pair{"{preset}", preset}, std::pair{"{flight}", flight}})
+      for (std::size_t at; (at = word.find(name)) != std::string::npos;)
+        word.replace(at, std::strlen(name), file);
+  return command;
+}
+
+/// Flies the fit. Returns false if there is nothing to go on with.
+bool flew(const FitOptions& options, const std::vector<std::string>& command, const fs::path& file) {
+  std::error_code ignored;
+  fs::remove(file, ignored);  // of a run before: what is there in the end is this one's
+  Generator generator(command, options.profile, file);
+  if (generator.error != 0) {
+    report({{Severity::error, command.front(), "", "a program that can be run",
+             std::strerror(generator.error)}});
+    return false;
+  }
+  const auto progress = progressLines();
+  while (!generator.hasEnded()) {
+    std::this_thread::sleep_for(100ms);
+    const Result<IgFit> so = fs::exists(file, ignored) ? loadIgFit(file) : Result<IgFit>(Findings{});
+    const std::size_t views = so ? so->views : 0;
+    const double share = std::min(1.0, static_cast<double>(views) / kFewestFitViews);
+    if (progress(share, std::to_string(views) + " views")) continue;
+    generator.end();
+    break;
+  }
+  if (WIFEXITED(generator.status) && WEXITSTATUS(generator.status) == 0) return true;
+  const std::string how = WIFEXITED(generator.status)
+                              ? "exit status " + std::to_string(WEXITSTATUS(generator.status))
+                              : "signal " + std::to_string(WTERMSIG(generator.status));
+  report({{stopRequested() ? Severity::note : Severity::warning, command.front(), "", "exit status 0", how}});
+  return true;  // what it wrote until then counts
+}
+
+bool wroteExport(const fs::path& file, const Preset& preset, const TuningParameters& parameters) {
+  const auto valid = validate(parameters);
+  report(valid.findings());
+  if (!valid) return false;
+  const auto written =
+      writeAtomically(file, exportText(*valid, preset.name, provenanceNow(), ExportFormat::json));
+  report(written.findings());
+  return written.ok();
+}
+
+int run(const FitOptions& options) {
+  const fs::path folder = options.output, fitFile = folder / "fit.json", flown = folder / "flown.json",
+                 fittedFile = folder / "fitted.json";
+  const auto may = makeWritable(folder);
+  const auto profile = loadIgProfile(options.profile);
+  const auto preset = loadPreset(options.preset);
+  for (const Findings& findings : {may.findings(), profile.findings(), preset.findings()}) report(findings);
+  if (!may || !profile || !preset) return kRefused;
+  if (!options.command.empty()) {
+    const auto limited = limitedTo(*profile, preset->parameters, options.preset);
+    if (!wroteExport(flown, *preset, *limited) ||
+        !flew(options, filledIn(options.command, flown.string(), options.flight), fitFile))
+      return kRefused;
+    std::error_code ignored;
+    if (!fs::exists(fitFile, ignored)) {
+      report({{Severity::error, fitFile.string(), "",
+               "a fit of at least " + std::to_string(kFewestFitViews) +
+                   " views, written by a program that links libtrimtab: fly longer, or look at its output",
+               "none"}});
+      return kRefused;
+    }
+  }
+  const auto fit = loadIgFit(fitFile);
+  report(fit.findings());
+  if (!fit) return kRefused;
+  const auto fitted = fittedTo(*profile, *fit, preset->parameters, options.preset);
+  report(fitted.findings());
+  if (!fitted) return kRefused;
+  std::cout << report(*fit, *profile);
+  if (!wroteExport(fittedFile, *preset, *fitted)) return kRefused;
+  std::cout << "The fitted preset is " << fittedFile.string() << ".\n";
+  return stopRequested() ? kRefused : kDone;
+}
+
+}  // namespace
+
+void addFit(CLI::App& app, int& exitCode) {
+  CLI::App* const command =
+      app.add_subcommand("fit", "Fit a preset to an image generator that is not ours, by flying it");
+  command->footer(
+      "COMMAND starts an image generator that links libtrimtab, with {preset} and {flight} where their files "
+      "belong, after two dashes: trimtab-cli fit --profile ig.json --preset low-level --flight f.csv -o fit "
+      "-- "
+      "my_ig {preset} {flight}. It draws each view with one lever at a time moved. Without COMMAND, the fit "
+      "that "
+      "is in the folder is applied to the preset.");
+  auto options = std::make_shared<FitOptions>();
+  command->add_option("--profile", options->profile, "What the image generator has and reports")->required();
+  command->add_option("--preset", options->preset, "Preset to fit")->capture_default_str();
+  command->add_option("--flight", options->flight, "What stands in place of {flight}");
+  command
+      ->add_option("-o,--output", options->output,
+                   "Folder for fit.json, flown.json (the preset that is flown) and fitted.json")
+      ->required();
+  command->add_option("command", options->command, "The image generator and its arguments");
+  stopWhenAsked(*command);
+  command->callback([options, &exitCode] { exitCode = run(*options); });
+}
+
+}  // namespace trimtab::cli
