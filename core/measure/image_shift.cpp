@@ -11,9 +11,9 @@ namespace trimtab {
 namespace {
 
 constexpr int kBlock = 16;
-/// A block is flat if its green differs by less than this from its mean, in the mean square: half the step of
-/// a byte, squared, is 0.08.
-constexpr double kFlat = 4;
+/// A block is flat if its green differs by less than five steps of a byte from its mean: what fits then is as
+/// much the rounding as the place.
+constexpr double kFlat = 25;
 /// A place fits if what is left of the squared difference is at most this part of the block's own contrast.
 constexpr double kFits = 0.1;
 /// Places whose squared differences are so near are alike.
@@ -29,10 +29,10 @@ class Shifts {
         side_(2 * window + 1),
         cost_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_)) {}
 
+  bool hasContrast(int x, int y) const { return contrastAt(x, y) >= kFlat; }
   /// Returns how far the block at x, y moved; NaN if it tells nothing.
   double of(int x, int y) {
     const double contrast = contrastAt(x, y);
-    if (contrast < kFlat) return std::numeric_limits<double>::quiet_NaN();
     double least = std::numeric_limits<double>::infinity();
     for (int dy = -window_; dy <= window_; ++dy)
       for (int dx = -window_; dx <= window_; ++dx)
@@ -95,18 +95,23 @@ class Shifts {
 
 ImageShift imageShift(std::span<const std::uint8_t> reference, std::span<const std::uint8_t> test, int width,
                       int height, int windowPx) {
-  ImageShift shift{std::numeric_limits<double>::quiet_NaN(), 0, 0};
+  ImageShift shift{std::numeric_limits<double>::quiet_NaN()};
   const auto bytes =
       static_cast<std::size_t>(std::max(width, 0)) * static_cast<std::size_t>(std::max(height, 0)) * 4;
   if (bytes == 0 || windowPx < 1 || reference.size() != bytes || test.size() != bytes) return shift;
   Shifts shifts(reference, test, width, windowPx);
   std::vector<double> told;
+  int withContrast = 0;
   for (int y = windowPx; y + kBlock + windowPx <= height; y += kBlock)
     for (int x = windowPx; x + kBlock + windowPx <= width; x += kBlock)
-      if (const double px = shifts.of(x, y); !std::isnan(px)) told.push_back(px);
+      if (shifts.hasContrast(x, y)) {
+        ++withContrast;
+        if (const double px = shifts.of(x, y); !std::isnan(px)) told.push_back(px);
+      }
   constexpr double kMoved = 0.1;
   shift.blocks = static_cast<int>(told.size());
   if (told.empty()) return shift;
+  shift.told = static_cast<double>(told.size()) / withContrast;
   shift.moved = static_cast<double>(std::ranges::count_if(told, [](double px) { return px >= kMoved; })) /
                 static_cast<double>(told.size());
   shift.p95Px = quantileOf(told, 0.95);

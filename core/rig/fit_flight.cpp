@@ -38,8 +38,17 @@ std::vector<double> towards(double neutral, double end) {
 /// A smaller shift is not told from none.
 constexpr double kSeenPx = 0.1;
 
+/// Where fewer of an image's blocks can be told, what is left says nothing of the image.
+constexpr double kMostTold = 0.5;
+
 double median(const std::vector<double>& samples) {
   return quantileOf(samples, 0.5);
+}
+
+/// Returns the median shift of the views; NaN if most of them tell none.
+double shiftOf(const std::vector<double>& views) {
+  const auto told = std::ranges::count_if(views, [](double px) { return !std::isnan(px); });
+  return 2 * told > std::ssize(views) ? median(views) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -118,7 +127,8 @@ void FitFlight::completeView() {
     const Seen &a = taken_[0].seen, &b = t.seen;
     if (a.rgba.empty() || b.rgba.empty()) continue;
     s.flip.push_back(flip(a.rgba, b.rgba, a.width, a.height));
-    s.shiftPx.push_back(imageShift(a.rgba, b.rgba, a.width, a.height).p95Px);
+    const ImageShift shift = imageShift(a.rgba, b.rgba, a.width, a.height);
+    s.shiftPx.push_back(shift.told < kMostTold ? std::numeric_limits<double>::quiet_NaN() : shift.p95Px);
   }
   neutral_.ms.push_back(taken_[0].ms), neutral_.load.push_back(taken_[0].load);
   for (Taken& t : taken_) t.seen.rgba.clear();
@@ -145,8 +155,8 @@ LoadShape FitFlight::shape() const {
 double FitFlight::neutralPx() const {
   std::vector<double> px;
   for (const Setting& s : settings_)
-    if (s.lever == profile_.errorLever() && !s.shiftPx.empty() && median(s.shiftPx) >= kSeenPx)
-      px.push_back(median(s.shiftPx) / std::abs(s.value / s.lever->neutral() - 1));
+    if (s.lever == profile_.errorLever() && shiftOf(s.shiftPx) >= kSeenPx)
+      px.push_back(shiftOf(s.shiftPx) / std::abs(s.value / s.lever->neutral() - 1));
   return median(px);
 }
 
@@ -172,7 +182,7 @@ Result<IgFit> FitFlight::result() const {
   for (const Setting& s : settings_) {
     LeverPoint point{s.lever->row, s.value, pairedRatio(neutral_.ms, s.ms),
                      pairedRatio(neutral_.load, s.load)};
-    if (!s.flip.empty()) point.flip = median(s.flip), point.shiftPx = median(s.shiftPx);
+    if (!s.flip.empty()) point.flip = median(s.flip), point.shiftPx = shiftOf(s.shiftPx);
     fit.points.push_back(point);
   }
   fit.shape = shape();

@@ -36,6 +36,7 @@ TEST(ImageShift, isWhatAnImageWasMovedBy) {
     EXPECT_NEAR(shift.p95Px, std::hypot(dx, dy), 0.1) << dx << ' ' << dy;
     EXPECT_EQ(shift.moved, 1);
     EXPECT_GT(shift.blocks, 150);
+    EXPECT_EQ(shift.told, 1);
   }
 }
 
@@ -50,6 +51,7 @@ TEST(ImageShift, countsTheShareThatMoved) {
   const ImageShift shift =
       imageShift(image(0, 0, kAll), image(3, 0, [](int x) { return x < kWidth / 4; }), kWidth, kHeight);
   EXPECT_NEAR(shift.moved, 0.25, 0.08);
+  EXPECT_GT(shift.told, 0.8);
   EXPECT_NEAR(shift.p95Px, 3, 0.2);
 }
 

@@ -79,6 +79,9 @@ int main(int argc, char** argv) {
   viewer.realize();
   osg::Camera& camera = *viewer.getCamera();
   camera.setProjectionResizePolicy(osg::Camera::FIXED);
+  camera.setComputeNearFarMode(
+      osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);  // else OSG replaces the far plane
+  camera.setCullingMode(camera.getCullingMode() | osg::CullSettings::FAR_PLANE_CULLING);
   camera.getStats()->collectStats("scene", true);
 
   trimtab_profile* profile = nullptr;

@@ -18,14 +18,22 @@ class PagedScene {
  public:
   static constexpr int kCells = 16;
 
+  /// Says how finely a scene is drawn, and whether its levels look alike, as imagery makes them, or each has
+  /// a colour.
+  struct Look {
+    float radii = 1.5f;  ///< a page is drawn nearer than so many of its tile's radii
+    bool alike = false;
+  };
+
   /// Writes `folder`/scene.ENDING and its pages; `geocentric`, or else metres of the terrain's own frame.
   PagedScene(const SyntheticTerrain& terrain, std::filesystem::path folder, std::string ending,
-             bool geocentric, int levels = 3)
+             bool geocentric, int levels = 3, Look look = {1.5f, false})
       : terrain_(terrain),
         folder_(std::move(folder)),
         ending_(std::move(ending)),
         geocentric_(geocentric),
-        levels_(levels) {
+        levels_(levels),
+        look_(look) {
     osg::ref_ptr<osg::Group> root = geocentric ? new osg::CoordinateSystemNode : new osg::Group;
     if (geocentric)
       static_cast<osg::CoordinateSystemNode*>(root.get())->setEllipsoidModel(new osg::EllipsoidModel);
@@ -42,6 +50,12 @@ class PagedScene {
   std::string nameOf(int level, int column, int row) const {
     return "page_" + std::to_string(level) + "_" + std::to_string(column) + "_" + std::to_string(row) +
            ending_;
+  }
+
+  /// A texture of some posts' length, which coarser levels sample at their posts.
+  static float shadeAt(int column, int row) {
+    return 0.5f +
+           0.45f * std::sin(0.13f * static_cast<float>(column)) * std::cos(0.11f * static_cast<float>(row));
   }
 
   osg::ref_ptr<osg::Node> surface(int level, int column, int row) const {
@@ -61,8 +75,10 @@ class PagedScene {
                             (at(x, std::min(y + 1, kCells)) - at(x, std::max(y - 1, 0)));
         normal.normalize();
         normals->push_back(normal);
-        const float shade = 0.3f + static_cast<float>((x * 37 + y * 91) % 120) / 200;
-        colours->push_back({shade, 1 - shade, 0.2f + 0.25f * static_cast<float>(level), 1});
+        const float shade = look_.alike ? shadeAt(column * posts + x * step, row * posts + y * step)
+                                        : 0.3f + static_cast<float>((x * 37 + y * 91) % 120) / 200;
+        colours->push_back(
+            {shade, 1 - shade, look_.alike ? 0.3f : 0.2f + 0.25f * static_cast<float>(level), 1});
       }
     osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
     for (int y = 0; y < kCells; ++y)
@@ -94,9 +110,9 @@ class PagedScene {
     osg::ref_ptr<osg::PagedLOD> lod = new osg::PagedLOD;
     lod->setCenter(bound.center());
     lod->setRadius(bound.radius());
-    lod->addChild(own, 1.5f * bound.radius(), 1e10f);
+    lod->addChild(own, look_.radii * bound.radius(), 1e10f);
     lod->setFileName(1, nameOf(level, column, row));
-    lod->setRange(1, 0, 1.5f * bound.radius());
+    lod->setRange(1, 0, look_.radii * bound.radius());
     return lod;
   }
 
@@ -105,6 +121,7 @@ class PagedScene {
   std::string ending_;
   bool geocentric_, written_ = false;
   int levels_;
+  Look look_;
 };
 
 }  // namespace trimtab::test

@@ -11,6 +11,8 @@ struct ImageShift {
   double p95Px = 0;  ///< of the blocks that moved or stayed; NaN if no block could be told
   double moved = 0;  ///< share of these blocks that moved by a tenth of a pixel or more
   int blocks = 0;    ///< how many could be told
+  double told =
+      0;  ///< the share of blocks with contrast that these are; where it is small, p95Px is of a remnant
 };
 
 /// Compares two images, rows of RGBA8 without gaps, in blocks of 16 x 16 pixels: a block moved to where its
