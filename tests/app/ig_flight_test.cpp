@@ -4,6 +4,7 @@
 #include "tests/csv_cells.h"
 #include "trimtab/host/flight.h"
 #include "trimtab/measure/cost_stages.h"
+#include "trimtab/trimtab.h"
 
 namespace trimtab {
 namespace {
@@ -68,6 +69,54 @@ class IgFlight : public ::testing::Test {
 
   test::ScratchDir dir_;
 };
+
+/// Flies rows of the image generator's trace by libtrimtab, and returns the first whose levers or reasons are
+/// others; nothing if all agree to the bit.
+std::optional<std::size_t> firstOtherwiseByC(const std::filesystem::path& preset,
+                                             const std::vector<TraceRow>& rows) {
+  trimtab_preset* loaded = nullptr;
+  trimtab_session* session = nullptr;
+  EXPECT_EQ(trimtab_preset_load(preset.c_str(), &loaded, nullptr), TRIMTAB_OK);
+  EXPECT_EQ(trimtab_session_create(loaded, &session), TRIMTAB_OK);
+  std::optional<std::size_t> first;
+  for (std::size_t i = 0; i < rows.size() && !first; ++i) {
+    const AircraftState& state = rows[i].input.state;
+    trimtab_state s{};
+    s.size = sizeof s;
+    trimtab_state_clear(&s);
+    s.packet = state.packet, s.time_s = state.time;
+    s.latitude_deg = state.position.latitude.value(), s.longitude_deg = state.position.longitude.value();
+    s.height_m = state.position.height.value();
+    s.heading_deg = state.attitude.heading.value(), s.pitch_deg = state.attitude.pitch.value();
+    s.roll_deg = state.attitude.roll.value();
+    trimtab_session_fly(session, &s);
+    trimtab_session_request(session, s.time_s, 16, 16, nullptr);
+    std::vector<double> drawn(kFrameLeverRows.size());
+    trimtab_session_levers(session, TRIMTAB_STEP_BUDGET, drawn.data(), drawn.size());
+    trimtab_decision decision{};
+    decision.size = sizeof decision;
+    trimtab_session_decision(session, &decision);
+    bool same = decision.scheme == toText(rows[i].decision.scheme) &&
+                decision.scheme_reason == toText(rows[i].decision.reason) &&
+                decision.total_membership == rows[i].decision.totalMembership;
+    for (std::size_t k = 0; k < drawn.size(); ++k)
+      same = same && drawn[k] == valueOf(rows[i].levers.drawn, kFrameLeverRows[k]);
+    if (!same) first = i;
+  }
+  trimtab_session_free(session);
+  trimtab_preset_free(loaded);
+  return first;
+}
+
+TEST_F(IgFlight, decidesAsProgramsInCDo) {
+  constexpr int kStates = 36000;
+  write(*validate(*defaultParameters()), test::weavingFlight(kStates));
+  IgProcess ig = fly(dir_ / "flight.csv", dir_ / "trace.csv", {"--size", "16x16"});
+  ASSERT_EQ(ig.end(), 0) << ig.err();
+  const std::vector<TraceRow> rows = rowsOf(dir_ / "trace.csv");
+  ASSERT_EQ(rows.size(), std::size_t{kStates});
+  EXPECT_EQ(firstOtherwiseByC(dir_ / "preset.json", rows), std::nullopt);
+}
 
 TEST_F(IgFlight, saysWhatHoldingTheBudgetCouldNotDo) {
   TuningParameters p = *defaultParameters();
