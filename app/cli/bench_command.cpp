@@ -143,8 +143,7 @@ int run(const BenchOptions& arguments) {
   if (!parseCases(arguments.cases, plan.cases))
     faults.push_back(
         refused("--cases", "some of none, view_frustum, proposed with commas between", arguments.cases));
-  const Findings badPart = arguments.part.read(plan.part);
-  faults.insert(faults.end(), badPart.begin(), badPart.end());
+  plan.part = arguments.part.read();
   report(faults);
   bool usable = readFlights(arguments, plan);
   usable = readPresets(arguments, plan) && usable && faults.empty();

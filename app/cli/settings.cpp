@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/terrain/bake/bake.h"
 
 namespace trimtab::cli {
 Findings applySettings(const std::vector<std::string>& settings, TuningParameters& parameters) {
@@ -49,22 +50,38 @@ bool parseSize(const std::string& text, int& width, int& height) {
          width <= 16384 && height <= 16384;
 }
 
+namespace {
+
+std::optional<harness::Plan::Part> parsePart(const std::string& text) {
+  unsigned number = 0, count = 0;
+  char after = 0;
+  if (std::sscanf(text.c_str(), "%9u/%9u%c", &number, &count, &after) != 2 || number < 1 || number > count ||
+      count > terrain::kMostBakeParts)
+    return std::nullopt;
+  return harness::Plan::Part{number - 1, count};
+}
+
+}  // namespace
+
 void PartOptions::add(CLI::App& command) {
-  CLI::Option* share = command.add_option(
-      "--part", part, "I/N: does only this share of the next step; the last part joins what all did");
-  command.add_flag("--join", join, "Joins what parts did and does nothing else; names what is missing")
+  CLI::Option* share =
+      command
+          .add_option("--part", part,
+                      "I/N: does only the I-th of N shares of the work, or of its next step, for several "
+                      "processes, or machines that share its folder")
+          ->check([](const std::string& text) {
+            return parsePart(text) ? std::string()
+                                   : "I/N with I from 1 to N and N at most " +
+                                         std::to_string(terrain::kMostBakeParts) + ", not " + text;
+          });
+  command
+      .add_flag("--join", join,
+                "Joins what parts did and does no part's work; names what is missing, with exit status 3")
       ->excludes(share);
 }
 
-Findings PartOptions::read(std::optional<harness::Plan::Part>& into) const {
-  if (join) into = harness::Plan::Part{1, 1};
-  if (part.empty()) return {};
-  unsigned number = 0, count = 0;
-  char after = 0;
-  if (std::sscanf(part.c_str(), "%u/%u%c", &number, &count, &after) != 2 || number < 1 || number > count)
-    return {{Severity::error, "--part", "", "I/N with I from 1 to N, such as 2/8", part}};
-  into = harness::Plan::Part{number - 1, count};
-  return {};
+std::optional<harness::Plan::Part> PartOptions::read() const {
+  return join ? harness::Plan::Part{1, 1} : parsePart(part);
 }
 
 int PartOptions::incomplete(const std::vector<std::string>& notes) const {

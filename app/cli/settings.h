@@ -35,8 +35,8 @@ struct PartOptions {
 
   /// Adds --part and --join.
   void add(CLI::App& command);
-  /// Sets the part that was asked for; what cannot be read is a finding.
-  Findings read(std::optional<harness::Plan::Part>& into) const;
+  /// Returns the part that was asked for; of --join one that does nothing but join.
+  std::optional<harness::Plan::Part> read() const;
   /// Says what is missing of a run that is not complete. Returns the exit code.
   int incomplete(const std::vector<std::string>& notes) const;
 };

@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -6,6 +5,7 @@
 #include "app/models/read_model.h"
 #include "commands.h"
 #include "progress.h"
+#include "settings.h"
 #include "terrain_info.h"
 #include "trimtab/terrain/bake/bake.h"
 #include "trimtab/terrain/elevation/height_unit.h"
@@ -115,8 +115,9 @@ void addTerrain(CLI::App& app, int& exitCode) {
     bool keepLines = false, keepTexture = false, noObjects = false;
     double postM = 0, memoryMb = terrain::BakeOptions{}.memory.value();
     std::optional<double> maxErrorM;
-    std::string part, heightUnit;
-    bool join = false, ignoreChecksums = false;
+    std::string heightUnit;
+    PartOptions part;
+    bool ignoreChecksums = false;
   };
   auto bake = std::make_shared<BakeArguments>();
   CLI::App* makeBake = group->add_subcommand("bake", "Make a database of elevation or scenery");
@@ -176,11 +177,7 @@ void addTerrain(CLI::App& app, int& exitCode) {
                    "Most memory that baking may use; tiles and trees that would take more are left out")
       ->capture_default_str()
       ->check(CLI::Range(64.0, 1048576.0));
-  CLI::Option* part = makeBake->add_option("--part", bake->part,
-                                           "I/N: the I-th of N shares of the work, kept beside the output; "
-                                           "for several processes, or machines that "
-                                           "share its folder");
-  makeBake->add_flag("--join", bake->join, "Make the database of what all parts made")->excludes(part);
+  bake->part.add(*makeBake);
   stopWhenAsked(*makeBake);
   makeBake->callback([bake, &exitCode] {
     terrain::BakeOptions options;
@@ -201,24 +198,18 @@ void addTerrain(CLI::App& app, int& exitCode) {
     options.memory = Megabytes{bake->memoryMb};
     options.progress = progressLines();
     report(terrain::aboutSources(options));
-    if (!bake->part.empty()) {
-      unsigned number = 0, parts = 0;
-      int read = 0;
-      if (std::sscanf(bake->part.c_str(), "%9u/%9u%n", &number, &parts, &read) != 2 ||
-          bake->part[static_cast<std::size_t>(read)] != 0 || number < 1 || number > parts)
-        throw CLI::ValidationError("--part", "I/N with 1 <= I <= N, not " + bake->part);
-      if (parts > terrain::kMostBakeParts)
-        throw CLI::ValidationError("--part", "I/N with N at most " + std::to_string(terrain::kMostBakeParts) +
-                                                 ", not " + bake->part);
-      const auto done = terrain::bakePart(options, number, parts);
+    const bool join = bake->part.join;
+    if (const auto part = bake->part.read(); part && !join) {
+      const auto done = terrain::bakePart(options, static_cast<std::uint32_t>(part->index + 1),
+                                          static_cast<std::uint32_t>(part->count));
       report(done.findings());
       exitCode = done ? kDone : kRefused;
       return;
     }
-    const auto done = bake->join ? terrain::bakeJoin(options) : terrain::bake(options);
+    const auto done = join ? terrain::bakeJoin(options) : terrain::bake(options);
     report(done.findings());
-    exitCode = done ? kDone : kRefused;
-    if (done) printInfo(**done, false);
+    exitCode = !done ? kRefused : *done ? kDone : kIncomplete;
+    if (done && *done) printInfo(**done, false);
   });
 
   struct InfoArguments {

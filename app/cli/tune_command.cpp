@@ -53,8 +53,7 @@ int run(const TuneOptions& arguments) {
   Findings faults;
   if (!parseSize(arguments.size, plan.widthPx, plan.heightPx))
     faults.push_back({Severity::error, "--size", "", "WIDTHxHEIGHT, each 16 to 16384 px", arguments.size});
-  const Findings badPart = arguments.part.read(plan.part);
-  faults.insert(faults.end(), badPart.begin(), badPart.end());
+  plan.part = arguments.part.read();
   report(faults);
   const std::optional<ValidatedParameters> start = parametersFor(arguments.preset, arguments.settings);
   bool usable = readFlights(arguments, arguments.flights, plan.flights);

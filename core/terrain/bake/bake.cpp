@@ -81,11 +81,9 @@ class Job {
   Result<std::shared_ptr<const Database>> makeWhole(bool join) {
     if (auto begun = begin(join ? WorkFolder::Use::join : WorkFolder::Use::alone); !begun)
       return begun.findings();
-    if (join) {
-      if (auto there = allThere(); !there) return there.findings();
-    } else {
+    if (join && (!work_ || someMissing())) return Result<std::shared_ptr<const Database>>(nullptr, findings_);
+    if (!join)
       if (auto made = makePart(0, 1, true); !made) return made.findings();
-    }
     if (auto made = kept(finish(join)); !made) return made.findings();
     auto database = Database::open(output_);
     if (!database) return database;
@@ -133,6 +131,7 @@ class Job {
     if (!work) return work.findings();
     keep(work.findings());
     work_ = std::move(work).value();
+    if (!work_) return Done{};  // nothing to join yet
     // This is asked before other parts of the same bake come to write there.
     goesOn_ = work_->resumed() && !work_->journal().empty();
     scenery_ = std::any_of(options_.sources.begin(), options_.sources.end(), isScenery);
@@ -245,15 +244,20 @@ class Job {
     return read ? result : read;
   }
 
-  Result<Done> allThere() {
+  /// Reports whether parts are not finished, and notes what is missing.
+  bool someMissing() {
     const auto there = patches_->finished();
     const auto missing = std::count(there.begin(), there.end(), std::uint8_t{0});
+    const auto note = [this](std::string expected, std::string found) {
+      findings_.push_back(
+          {Severity::note, work_->path().string(), "", std::move(expected), std::move(found)});
+      return true;
+    };
     if (missing > 0)
-      return refused(work_->path(), "all " + std::to_string(there.size()) + " pieces of the parts",
-                     std::to_string(missing) + " missing: let every part end, then join");
-    if (ground_->parts() == 0)
-      return refused(work_->path(), "the ground of all parts of one number of parts", "not all of them");
-    return Done{};
+      return note("all " + std::to_string(there.size()) + " pieces of the parts",
+                  std::to_string(missing) + " missing: let every part end, then join");
+    return ground_->parts() == 0 &&
+           note("the ground of all parts of one number of parts", "some of them missing");
   }
 
   /// The slopes of all levels, and the colours, take so many bytes.

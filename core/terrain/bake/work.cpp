@@ -174,7 +174,7 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
   const fs::path lockFile = path / "lock";
   if (std::error_code error;
       use == Use::join && !fs::exists(path / "recipe.json", error) && !fs::exists(path / "old", error))
-    return wrong(path, "all parts of a bake", "none: all are missing");
+    return {nullptr, {{Severity::note, path.string(), "", "all parts of a bake", "none: all are missing"}}};
   std::unique_ptr<FileLock> lock;
   int refused = 0;
   const auto takeLock = [&](bool beside) {
@@ -228,7 +228,11 @@ Result<std::unique_ptr<WorkFolder>> WorkFolder::open(const fs::path& output, con
     }
     std::this_thread::sleep_for(kTurn);
   }
-  return refused == ENOENT ? noLock() : otherBake(output, lockFile, "");
+  if (refused == ENOENT) return noLock();
+  Finding busy = otherBake(output, lockFile, "");
+  if (use != Use::join) return busy;
+  busy.severity = Severity::note;
+  return {nullptr, {busy}};
 }
 
 WorkFolder::~WorkFolder() {

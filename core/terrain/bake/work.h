@@ -39,7 +39,8 @@ class WorkFolder {
   /// `alone`: no other process may use the folder. `join`: the same, to join finished parts. `part`: other
   /// processes may bake parts at the same time.
   enum class Use { alone, join, part };
-  /// Opens or makes the folder. Removes work of another recipe, except for `join`, which is then refused.
+  /// Opens or makes the folder. Returns null, with a note, if `join` finds no parts or finds them at work.
+  /// Removes work of another recipe, except for `join`, which is then refused.
   /// Refuses a folder of this name that no bake has marked, unless it is empty, and an output that is a mount
   /// point, because a folder cannot be renamed onto it. The findings of success name what is not its own.
   static Result<std::unique_ptr<WorkFolder>> open(const std::filesystem::path& output,

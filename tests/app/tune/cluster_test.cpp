@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -137,6 +136,45 @@ class Cluster : public testing::Test {
       EXPECT_EQ(test::readFile(folder / name), test::readFile(*shared_ / "single" / name)) << name;
     }
   }
+  static std::string bake(const fs::path& out) {
+    return cli() + " terrain bake " + (*shared_ / "sample.tif").string() + " --max-error-m 0 -o " +
+           out.string();
+  }
+  static std::string bench(const fs::path& out) {
+    return cli() + " bench --terrain " + (*shared_ / "db").string() + " --flight " +
+           (*shared_ / "hop.csv").string() +
+           " --preset default high-cruise --size 96x64 --frames 6 --repeats 1 -o " + out.string();
+  }
+  /// Errors and counts of a bench; times differ from run to run.
+  static std::string errorsOf(const fs::path& folder) {
+    return test::run(
+               "python3 -c \"import csv,sys\nfor r in csv.DictReader(open(sys.argv[1])): "
+               "print(*[r[k] for k in ('flight','preset','row','flip','triangles','psnr_db')])\" " +
+               (folder / "frames.csv").string())
+        .out;
+  }
+  /// The bake is that of one process to the bit, and so is what a bench draws.
+  static void expectTheSingleRuns(const fs::path& database, const fs::path& benched) {
+    const test::ScratchDir dir;
+    ASSERT_EQ(test::run(bake(dir / "db")).exitCode, 0);
+    ASSERT_EQ(test::run(bench(dir / "bench")).exitCode, 0);
+    const test::Ran compared = test::run("diff -r " + (dir / "db").string() + ' ' + database.string());
+    EXPECT_EQ(compared.exitCode, 0) << compared.out << compared.err;
+    EXPECT_EQ(errorsOf(benched), errorsOf(dir / "bench"));
+    EXPECT_THAT(errorsOf(benched), HasSubstr("high-cruise"));
+  }
+  static void killOne(const std::vector<std::string>& words) {
+    EXPECT_TRUE(test::until([&] { return !processesWith(words).empty(); })) << words.front();
+    for (const pid_t pid : processesWith(words)) ::kill(pid, SIGKILL);
+  }
+  /// Waits for some rounds of processes, which a busy machine takes its time for.
+  static void expectComplete(const fs::path& out) {
+    const std::string log = out.string() + ".log";
+    bool done = false;
+    for (int i = 0; i < 10 && !done; ++i)
+      done = test::until([&] { return test::readFile(log + "/state") == "complete\n"; });
+    EXPECT_TRUE(done) << test::readFile(log + "/state") << test::run("squeue; tail -n 5 " + log + "/*").out;
+  }
   static std::string script(const std::string& name) {
     return (test::sourceDir() / "resources/cluster" / name).string();
   }
@@ -150,15 +188,11 @@ TEST_F(Cluster, slurmGivesTheSingleRunsSearchesWhateverIsKilled) {
   const test::ScratchDir dir;
   const OneNodeSlurm slurm(dir / "slurm");
   if (!slurm.ready()) GTEST_SKIP() << "needs a Slurm that starts here: " << slurm.said();
-  const fs::path out = dir / "out", state = dir / "out.log" / "state";
+  const fs::path out = dir / "out";
   takeSamples(out);
   const test::Ran submitted =
       test::run("bash " + script("slurm.sh") + " 8 " + out.string() + ' ' + tune(out));
   ASSERT_EQ(submitted.exitCode, 0) << submitted.out << submitted.err;
-  const auto killOne = [&](const std::vector<std::string>& words) {
-    EXPECT_TRUE(test::until([&] { return !processesWith(words).empty(); })) << words.front();
-    for (const pid_t pid : processesWith(words)) ::kill(pid, SIGKILL);
-  };
   killOne({"tune", "--part", out.string()});        // what a task runs
   killOne({"slurm_script", "tune", out.string()});  // a batch shell
   EXPECT_TRUE(test::until([&] { return !processesWith({"--part", out.string()}).empty(); }));
@@ -166,11 +200,7 @@ TEST_F(Cluster, slurmGivesTheSingleRunsSearchesWhateverIsKilled) {
   EXPECT_EQ(slurm.startNode(), "");
   // Without this the controller believes for minutes that the tasks of the killed daemon run.
   test::run("scontrol reconfigure");
-  const auto complete = [&] { return test::readFile(state) == "complete\n"; };
-  // Some rounds of eight processes, which a busy machine takes its time for.
-  bool done = false;
-  for (int i = 0; i < 10 && !done; ++i) done = test::until(complete);
-  EXPECT_TRUE(done) << test::readFile(state) << test::run("squeue; tail -n 5 " + out.string() + ".log/*").out;
+  expectComplete(out);
   expectTheSingleRunsSearches(out);
   EXPECT_TRUE(fs::exists(out / "tune.html"));
 }
@@ -185,41 +215,29 @@ TEST_F(Cluster, parallelGivesTheSingleRunsSearches) {
   expectTheSingleRunsSearches(dir / "out");
 }
 
-TEST_F(Cluster, aBenchInPartsIsTheBenchOfOneProcess) {
+TEST_F(Cluster, parallelGivesTheSingleRunsBakeAndBench) {
   const test::ScratchDir dir;
-  const auto bench = [&](const fs::path& out) {
-    return cli() + " bench --terrain " + (*shared_ / "db").string() + " --flight " +
-           (*shared_ / "hop.csv").string() +
-           " --preset default high-cruise --size 96x64 --frames 6 --repeats 1 -o " + out.string();
-  };
-  ASSERT_EQ(test::run(bench(dir / "one")).exitCode, 0);
-  const test::Ran done =
-      test::run("bash " + script("ssh.sh") + " 3 " + (dir / "parts").string() + " : " + bench(dir / "parts"));
-  ASSERT_EQ(done.exitCode, 0) << done.err;
-  // Times differ from run to run; errors and counts do not.
-  const auto errors = [&](const char* folder) {
-    std::string kept;
-    std::ifstream in(dir / folder / "frames.csv");
-    std::string line;
-    std::getline(in, line);
-    std::vector<std::size_t> wanted;
-    std::istringstream header(line);
-    std::size_t column = 0;
-    for (std::string name; std::getline(header, name, ','); ++column)
-      for (const char* key : {"flight", "preset", "row", "flip", "triangles", "psnr_db"})
-        if (name == key) wanted.push_back(column);
-    EXPECT_GE(wanted.size(), 5u) << line;
-    while (std::getline(in, line)) {
-      std::istringstream row(line);
-      column = 0;
-      for (std::string value; std::getline(row, value, ','); ++column)
-        if (std::find(wanted.begin(), wanted.end(), column) != wanted.end()) kept += value + ' ';
-      kept += '\n';
-    }
-    return kept;
-  };
-  EXPECT_EQ(errors("parts"), errors("one"));
-  EXPECT_FALSE(errors("one").empty());
+  for (const auto& [name, command] : {std::pair{"db", bake(dir / "db")}, {"bench", bench(dir / "bench")}}) {
+    const test::Ran done =
+        test::run("bash " + script("ssh.sh") + " 3 " + (dir / name).string() + " : " + command);
+    ASSERT_EQ(done.exitCode, 0) << done.err;
+  }
+  expectTheSingleRuns(dir / "db", dir / "bench");
+}
+
+TEST_F(Cluster, slurmGivesTheSingleRunsBakeAndBenchWhateverIsKilled) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root, as which alone a private Slurm was tried";
+  const test::ScratchDir dir;
+  const OneNodeSlurm slurm(dir / "slurm");
+  if (!slurm.ready()) GTEST_SKIP() << "needs a Slurm that starts here: " << slurm.said();
+  for (const auto& [name, command] : {std::pair{"db", bake(dir / "db")}, {"bench", bench(dir / "bench")}}) {
+    const std::string out = (dir / name).string();
+    const test::Ran submitted = test::run("bash " + script("slurm.sh") + " 3 " + out + ' ' + command);
+    ASSERT_EQ(submitted.exitCode, 0) << submitted.out << submitted.err;
+    killOne({"trimtab-cli", "--part", out});
+    expectComplete(out);
+  }
+  expectTheSingleRuns(dir / "db", dir / "bench");
 }
 
 TEST_F(Cluster, aRefusedCommandIsNotSubmitted) {

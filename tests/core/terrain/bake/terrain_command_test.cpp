@@ -93,7 +93,7 @@ TEST_F(TerrainCommand, bakesACountryInPartsAndChecksIt) {
   const std::string bake = "bake " + at("c.tif") + " -o " + at("db") + " --max-error-m 20 --memory-mb 128";
   ASSERT_EQ(test::run(cli(bake + " --part 2/2")).exitCode, 0);
   const auto early = test::run(cli(bake + " --join"));
-  EXPECT_EQ(early.exitCode, 1);
+  EXPECT_EQ(early.exitCode, 3);
   EXPECT_NE(early.err.find("missing"), std::string::npos) << early.err;
   ASSERT_EQ(test::run(cli(bake + " --part 1/2")).exitCode, 0);
   const auto joined = test::run(cli(bake + " --join"));

@@ -58,7 +58,8 @@ inline constexpr std::uint32_t kMostBakeParts = 4096;
 /// or machines that share the output's folder, may each bake a share at the same time; their memory, progress
 /// and `parts` may differ. Call bakeJoin when all shares are done.
 Result<Done> bakePart(const BakeOptions& options, std::uint32_t part, std::uint32_t parts);
-/// Joins the shares to a database, the same bytes as bake(). Refuses, with their number, if any are missing.
+/// Joins the shares to a database, the same bytes as bake(). Returns null, with a note of what is missing,
+/// while shares are missing or processes are at work on them.
 Result<std::shared_ptr<const Database>> bakeJoin(const BakeOptions& options);
 
 }  // namespace trimtab::terrain
