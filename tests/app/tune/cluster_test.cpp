@@ -26,8 +26,7 @@ std::vector<pid_t> processesWith(const std::vector<std::string>& words) {
   for (const auto& entry : fs::directory_iterator("/proc")) {
     const std::string name = entry.path().filename().string();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::ifstream in(entry.path() / "cmdline");
-    std::string line((std::istreambuf_iterator<char>(in)), {});
+    std::string line = test::readFile(entry.path() / "cmdline");
     std::replace(line.begin(), line.end(), '\0', ' ');
     if (std::all_of(words.begin(), words.end(),
                     [&](const std::string& word) { return line.find(word) != std::string::npos; }))
@@ -171,8 +170,12 @@ class Cluster : public testing::Test {
   static void expectComplete(const fs::path& out) {
     const std::string log = out.string() + ".log";
     bool done = false;
-    for (int i = 0; i < 10 && !done; ++i)
+    for (int i = 0; i < 10 && !done; ++i) {
+      // Without this the controller believes for minutes that tasks of a killed daemon run; of those that had
+      // just begun it asks again only when they are some seconds old.
+      test::run("scontrol reconfigure");
       done = test::until([&] { return test::readFile(log + "/state") == "complete\n"; });
+    }
     EXPECT_TRUE(done) << test::readFile(log + "/state") << test::run("squeue; tail -n 5 " + log + "/*").out;
   }
   static std::string script(const std::string& name) {
@@ -198,8 +201,6 @@ TEST_F(Cluster, slurmGivesTheSingleRunsSearchesWhateverIsKilled) {
   EXPECT_TRUE(test::until([&] { return !processesWith({"--part", out.string()}).empty(); }));
   slurm.kill("slurmd", SIGKILL);
   EXPECT_EQ(slurm.startNode(), "");
-  // Without this the controller believes for minutes that the tasks of the killed daemon run.
-  test::run("scontrol reconfigure");
   expectComplete(out);
   expectTheSingleRunsSearches(out);
   EXPECT_TRUE(fs::exists(out / "tune.html"));
