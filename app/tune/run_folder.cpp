@@ -1,12 +1,10 @@
 #include "run_folder.h"
 
 #include <nlohmann/json.hpp>
-#include <system_error>
 
+#include "app/harness/run_plan.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
-#include "trimtab/preset/sha256.h"
-#include "trimtab/units/number.h"
 
 namespace trimtab::tune {
 namespace {
@@ -14,33 +12,17 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kPlanFile = "tune-plan.json";
-
-std::string digestOf(std::string_view text) {
-  Sha256 sum;
-  sum.add(text);
-  return sum.hex().substr(0, 16);
-}
-
-/// Returns what the files of a folder depend on, one text for each thing, so that differences can be named.
-Json identityOf(const Plan& plan, const std::string& machine) {
-  const auto flights = [](const std::vector<harness::Plan::NamedFlight>& list) {
-    std::string text;
-    for (const auto& flight : list)
-      text += (text.empty() ? "" : ", ") + flight.name + " (" + digestOf(flightCsv(flight.flight)) + ')';
-    return text.empty() ? std::string("none") : text;
-  };
-  std::string start, free;
-  for (const ParameterRow& row : parameterRows())
-    start += std::string(row.key) + '=' + toText(row, row.get(*plan.start)) + '\n';
+/// Returns what the files of a folder depend on.
+harness::PlanLines identityOf(const Plan& plan, const std::string& machine) {
+  std::string free;
   for (const std::string& text : plan.free) free += (free.empty() ? "" : " ") + text;
-  const terrain::TerrainInfo& info = plan.terrain->info();
   return {{"format", "trimtab-tune-plan"},
           {"version", plan.version},
           {"machine", machine},
-          {"terrain", plan.terrainName + ", checksum " + info.checksum},
-          {"flights", flights(plan.flights)},
-          {"start", plan.startName + " (" + digestOf(start) + ')'},
+          {"terrain", plan.terrainName + ", checksum " + plan.terrain->info().checksum},
+          {"flights", harness::planText(plan.flights)},
+          {"held out", harness::planText(plan.heldOut)},
+          {"start", harness::planText({harness::Plan::NamedPreset{plan.startName, plan.start}})},
           {"free", free},
           {"size", std::to_string(plan.widthPx) + 'x' + std::to_string(plan.heightPx)},
           {"time", plan.time == TimeMeasure::median ? "median"
@@ -55,33 +37,10 @@ Json identityOf(const Plan& plan, const std::string& machine) {
 }  // namespace
 
 Result<RunFolder> RunFolder::open(const fs::path& folder, const Plan& plan, const std::string& machine) {
-  const Json wanted = identityOf(plan, machine);
-  const fs::path file = folder / kPlanFile;
-  std::error_code error;
-  if (fs::exists(file, error)) {
-    const Result<std::string> text = readWhole(file);
-    if (!text) return text.findings();
-    const Json held = Json::parse(*text, nullptr, false);
-    if (!held.is_object())
-      return Finding{Severity::error, file.string(), "", "the plan of a tuning run", "something else"};
-    Findings different;
-    for (const auto& [key, value] : wanted.items())
-      if (const auto at = held.find(key); at == held.end() || *at != value)
-        different.push_back({Severity::error, file.string(), key,
-                             "what this folder was made with, " +
-                                 (at == held.end() ? std::string("nothing") : at->dump()) +
-                                 " (or another folder)",
-                             value.dump()});
-    if (!different.empty()) return different;
-    return RunFolder(folder);
-  }
-  if (fs::exists(folder, error) && !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))
-    return Finding{Severity::error, folder.string(), "",
-                   "a new or empty folder, or that of a tuning run that was stopped", "something else"};
-  fs::create_directories(folder, error);
-  if (error)
-    return Finding{Severity::error, folder.string(), "", "a folder that can be written", error.message()};
-  if (const auto written = writeAtomically(file, wanted.dump(2) + '\n'); !written) return written.findings();
+  const auto opened = harness::openRunFolder(
+      folder, "tune-plan.json", identityOf(plan, machine),
+      {"samples-0.json", "search-0.json", "tried", "measured", "presets", "tune.html"});
+  if (!opened) return opened.findings();
   return RunFolder(folder);
 }
 
@@ -93,9 +52,7 @@ fs::path RunFolder::searchFile(std::size_t search) const {
 }
 
 std::optional<DrawnSamples> RunFolder::samples(std::size_t flight) const {
-  std::error_code error;
   const fs::path file = samplesFile(flight);
-  if (!fs::exists(file, error)) return std::nullopt;
   const Result<std::string> text = readWhole(file);
   if (!text) return std::nullopt;
   Result<DrawnSamples> samples = parseSamples(*text, file.string());
@@ -108,10 +65,7 @@ Result<Done> RunFolder::write(std::size_t flight, const DrawnSamples& samples) c
 }
 
 std::optional<std::vector<Candidate>> RunFolder::search(std::size_t search) const {
-  std::error_code error;
-  const fs::path file = searchFile(search);
-  if (!fs::exists(file, error)) return std::nullopt;
-  const Result<std::string> text = readWhole(file);
+  const Result<std::string> text = readWhole(searchFile(search));
   if (!text) return std::nullopt;
   try {
     const Json document = Json::parse(*text);

@@ -159,10 +159,10 @@ TEST(Tune, aFolderOfAnotherPlanIsNamedAndKept) {
   EXPECT_THAT(toString(refused.findings()), HasSubstr("seed"));
   EXPECT_EQ(searchOf(dir / "out"), before);
   fs::create_directory(dir / "notes");
-  test::writeFile(dir / "notes" / "mine.txt", "mine");
+  test::writeFile(dir / "notes" / "tune.html", "mine");
   const auto full = run(plan, dir / "notes");
   ASSERT_FALSE(full);
-  EXPECT_THAT(toString(full.findings()), HasSubstr("new or empty folder"));
+  EXPECT_THAT(toString(full.findings()), HasSubstr("a new folder"));
 }
 
 TEST(Tune, aPresetThatASearchFoundIsOneToStartFrom) {
