@@ -155,7 +155,7 @@ Feedback feedbackOf(const ValidatedParameters& parameters) {
     feedback.counts = policy->asks(Signal::triangles);
     feedback.times = policy->asks(Signal::load);
     // A lever that moves changes what is drawn, which may move it back.
-    if (feedback.any()) remember(2 * crossingS(*policy), SignalTracker::kLoadImages);
+    if (feedback.any()) remember(2 * crossingS(*policy), ImageSignals::kLoadImages);
   }
   const MotionParameters& motion = parameters->motion;
   if (motion.control != MotionControl::off && motion.frames == MotionFrames::drawn &&
@@ -165,7 +165,7 @@ Feedback feedbackOf(const ValidatedParameters& parameters) {
   }
   if (parameters->hold.enabled) {
     feedback.times = true;
-    remember(rememberedMs(parameters->hold) / 1e3, SignalTracker::kLoadImages);
+    remember(rememberedMs(parameters->hold) / 1e3, ImageSignals::kLoadImages);
   }
   return feedback;
 }

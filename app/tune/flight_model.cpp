@@ -5,73 +5,18 @@
 #include <utility>
 
 #include "cost_fit.h"
+#include "lever_places.h"
 #include "trimtab/decision/decide.h"
 #include "trimtab/hold/arbiter.h"
 #include "trimtab/hold/frame_hold.h"
+#include "trimtab/policy/compiled_policy.h"
 #include "trimtab/scene/data_extent.h"
 #include "trimtab/scene/load_index.h"
 #include "trimtab/session/session.h"
+#include "trimtab/units/not_finite.h"
 
 namespace trimtab::tune {
 namespace {
-
-/// The ladder that is counted of each row: from half a pixel over seven octaves.
-constexpr double kLeastPx = 0.5;
-constexpr std::size_t kCounted = 7 * kPlacesPerOctave + 1;
-using Counted = std::array<float, kCounted>;
-
-/// Returns where an allowed error, pixels, lies on the ladder.
-double placeOf(double errorPx) {
-  return double{kPlacesPerOctave} * std::log2(errorPx / kLeastPx);
-}
-/// Returns what the ladder says at a place; beyond its ends, what it says there.
-double atPlace(const Counted& counted, double where) {
-  const double place = std::clamp(where, 0.0, static_cast<double>(kCounted - 1));
-  const auto at = std::min(static_cast<std::size_t>(place), kCounted - 2);
-  return std::lerp(static_cast<double>(counted[at]), static_cast<double>(counted[at + 1]),
-                   place - static_cast<double>(at));
-}
-
-double countAt(const Counted& counted, double errorPx) {
-  return atPlace(counted, placeOf(errorPx));
-}
-
-using Steps = std::array<float, kLossSteps>;
-
-/// Returns what the steps of a loss say at a value: on straight lines between the values that were drawn,
-/// over the logarithm of errors and distances. Finer than the first lies `rest`, which is what the steps say
-/// of a lever at rest.
-double stepAt(const Steps& steps, Loss loss, double value, double rest) {
-  const auto& values = kLossValues[static_cast<std::size_t>(loss)];
-  double place = 0;  // -1 is at rest
-  switch (loss) {
-    case Loss::ground_error:
-    case Loss::object_error:
-      place = std::log2(value);
-      break;
-    case Loss::small_feature:
-      place = value < 1 ? value - 1 : std::log2(value);
-      break;
-    case Loss::object_distance:
-      place = std::log2(values[0] / value);
-      break;
-    default: {
-      std::size_t step = 0;
-      while (step + 1 < kLossSteps && values[step + 1] > value) ++step;
-      if (value >= values[0])
-        place = values[0] < 1 ? -(value - values[0]) / (1 - values[0]) : 0;
-      else if (step + 1 < kLossSteps && values[step] > values[step + 1])
-        place = static_cast<double>(step) + (values[step] - value) / (values[step] - values[step + 1]);
-      else
-        place = kLossSteps - 1;
-    }
-  }
-  place = std::clamp(place, -1.0, static_cast<double>(kLossSteps - 1));
-  if (place < 0) return std::lerp(static_cast<double>(steps[0]), rest, -place);
-  const auto at = std::min(static_cast<std::size_t>(place), kLossSteps - 2);
-  return std::lerp(static_cast<double>(steps[at]), static_cast<double>(steps[at + 1]),
-                   place - static_cast<double>(at));
-}
 
 /// Holds what the model knows of one row of a flight.
 struct Row {
@@ -178,15 +123,41 @@ Between betweenOf(const std::vector<DrawnRow>& drawn, std::size_t row) {
   return {at - 1, at, (static_cast<double>(row) - from) / (to - from)};
 }
 
+/// The places of the levers in what the rows say.
+struct Places {
+  LeverPlace ground, objects;  ///< on the ladder
+  std::array<LeverPlace, kLosses> losses;
+
+  const Place& of(Loss loss, double value) {
+    return losses[static_cast<std::size_t>(loss)].at(value, [loss](double v) { return onSteps(loss, v); });
+  }
+  static Place ladderPlace(double errorPx) { return onLadder(ladderSteps(errorPx)); }
+};
+
 /// The part of the triangles and instances of objects that smallest size and farthest distance leave.
 struct Kept {
   double triangles = 1, instances = 1;
 };
-Kept keptOf(const Row& row, const FrameLevers& levers) {
-  return {stepAt(row.smallKept, Loss::small_feature, levers.smallFeaturePx, 1) *
-              stepAt(row.objectsKept, Loss::object_distance, levers.objectFarM, 1),
-          stepAt(row.smallInstances, Loss::small_feature, levers.smallFeaturePx, 1) *
-              stepAt(row.farInstances, Loss::object_distance, levers.objectFarM, 1)};
+Kept keptOf(const Row& row, const FrameLevers& levers, Places& places) {
+  const Place &small = places.of(Loss::small_feature, levers.smallFeaturePx),
+              &far = places.of(Loss::object_distance, levers.objectFarM);
+  return {small.in(row.smallKept, 1) * far.in(row.objectsKept, 1),
+          small.in(row.smallInstances, 1) * far.in(row.farInstances, 1)};
+}
+
+/// Holds what a row's decision and signals are before any rule.
+struct Flown {
+  FrameDecision decision;
+  SignalValues signals;  ///< unknown if nobody asked
+  bool viewMoved = false;
+};
+
+/// Reports whether a parameter moves the levers or says what is lost by them, so that the decision of a row
+/// does not depend on it until rules come.
+bool onlyMovesLevers(const ParameterRow& row) {
+  for (const char* group : {"lod.", "objects.", "hold.", "policy.", "measure."})
+    if (row.key.starts_with(group)) return true;
+  return false;
 }
 
 }  // namespace
@@ -205,9 +176,17 @@ struct FlightModel::Impl {
   struct Image {
     double ms = 0, triangles = 0, flip = 0;
   };
-  Image imageOf(const Row& row, const FrameLevers& levers, const FrameDecision& decision) const;
+  Image imageOf(const Row& row, const FrameLevers& levers, const FrameDecision& decision,
+                Places& places) const;
   HeldLevers hold(const Row& row, const FrameLevers& asked, const FrameDecision& decision,
-                  const TuningParameters& parameters, HoldMemory& memory) const;
+                  const TuningParameters& parameters, Places& places, HoldMemory& memory) const;
+
+  /// What the rows are before any rule, by the parameters of the last estimate: presets of which only levers
+  /// and rules differ share it.
+  std::optional<TuningParameters> flownWith;
+  std::vector<Flown> flown;
+  bool signalsFlown = false;
+  void fly(const ValidatedParameters& parameters);
   static double particlesOf(const FrameDecision& decision) {
     return decision.weather.precipitation == Precipitation::none ? 0 : decision.weather.density;
   }
@@ -215,14 +194,14 @@ struct FlightModel::Impl {
 
 /// Returns what an image under these levers takes and loses.
 FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameLevers& levers,
-                                                    const FrameDecision& decision) const {
+                                                    const FrameDecision& decision, Places& places) const {
   Image image;
   const double groundPx = levers.errorPx * levers.lodScale, objectPx = levers.objectErrorPx * levers.lodScale;
   const auto lose = [&](Loss loss, double value) {
-    image.flip += stepAt(row.flip[static_cast<std::size_t>(loss)], loss, value, 0);
+    image.flip += places.of(loss, value).in(row.flip[static_cast<std::size_t>(loss)], 0);
   };
-  const Kept kept = keptOf(row, levers);
-  const double objects = countAt(row.objects, objectPx) * kept.triangles;
+  const Kept kept = keptOf(row, levers, places);
+  const double objects = places.objects.at(objectPx, Places::ladderPlace).in(row.objects) * kept.triangles;
   lose(Loss::ground_error, groundPx);
   if (objects > 0) {
     lose(Loss::object_error, objectPx);
@@ -230,11 +209,11 @@ FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameL
     lose(Loss::object_distance, levers.objectFarM);
   }
   if (levers.renderScale < 1) lose(Loss::render_scale, levers.renderScale);
-  image.triangles = countAt(row.tiles, groundPx) + objects;
+  image.triangles = places.ground.at(groundPx, Places::ladderPlace).in(row.tiles) + objects;
   image.triangles *= levers.occlusion ? row.drawnHidden : row.drawnOpen;
   if (std::isfinite(levers.farM)) {
     const double part = levers.farM / decision.weather.farM;
-    image.triangles *= stepAt(row.airKept, Loss::far_distance, part, 1);
+    image.triangles *= places.of(Loss::far_distance, part).in(row.airKept, 1);
     lose(Loss::far_distance, part);
   }
   const double particles = particlesOf(decision) * levers.particleShare;
@@ -248,7 +227,8 @@ FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameL
 
 /// Returns the levers to which the arbiter of the budget lowers a row's image.
 HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, const FrameDecision& decision,
-                                   const TuningParameters& parameters, HoldMemory& memory) const {
+                                   const TuningParameters& parameters, Places& places,
+                                   HoldMemory& memory) const {
   HoldGiven given;
   given.timeS = row.input.state.time;
   given.budgetMs = parameters.measure.budget.value();
@@ -257,14 +237,14 @@ HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, con
   given.imageMpx = row.imageMpx;
   given.groundMpx = row.groundMpx;
   const double drawn = asked.occlusion ? row.drawnHidden : row.drawnOpen;
-  const double tiles = placeOf(asked.errorPx * asked.lodScale);
-  const double objects = placeOf(asked.objectErrorPx * asked.lodScale);
+  const double tiles = ladderSteps(asked.errorPx * asked.lodScale);
+  const double objects = ladderSteps(asked.objectErrorPx * asked.lodScale);
   const double toNext = placesToNext(asked.errorPx);
-  const Kept kept = keptOf(row, asked);
+  const Kept kept = keptOf(row, asked, places);
   for (std::size_t k = 0; k < kErrorSteps; ++k) {
     const double coarser = k == 0 ? 0 : toNext + static_cast<double>(k - 1);
-    given.triangles[k] = drawn * (atPlace(row.tilesAhead, tiles + coarser) +
-                                  atPlace(row.objectsAhead, objects + coarser) * kept.triangles);
+    given.triangles[k] = drawn * (onLadder(tiles + coarser).in(row.tilesAhead) +
+                                  onLadder(objects + coarser).in(row.objectsAhead) * kept.triangles);
   }
   static_cast<ClockCoefficients&>(given.cost) = cost.coefficients;
   // The arbiter knows no instances: what they cost does not follow its levers.
@@ -323,7 +303,7 @@ FlightModel::FlightModel(const Scene& scene, const Flight& flight, const Validat
     SampleRow sample{rows[i].row, requests[i], std::nullopt, rows[i].groundMpx, {}};
     if (i > 0) sample.before = requests[i - 1];
     sample.counted = [tiles = rows[i].tiles, objects = rows[i].objects](double groundPx, double objectPx) {
-      return countAt(tiles, groundPx) + countAt(objects, objectPx);
+      return Places::ladderPlace(groundPx).in(tiles) + Places::ladderPlace(objectPx).in(objects);
     };
     impl_->toDraw.push_back(std::move(sample));
   }
@@ -376,28 +356,65 @@ void FlightModel::learn(const DrawnSamples& samples) {
   }
 }
 
-Estimate FlightModel::estimate(const ValidatedParameters& parameters) const {
-  const auto ground = std::make_shared<GroundOfRow>(impl_->highest);
-  Decider decider(parameters);
+/// Decides the rows without rules, unless the parameters that count for it are those of the last time.
+void FlightModel::Impl::fly(const ValidatedParameters& parameters) {
+  const bool known = flownWith && (signalsFlown || parameters.policy() == nullptr);
+  const auto differs = [&](const ParameterRow& row) {
+    return !onlyMovesLevers(row) && row.get(*flownWith) != row.get(*parameters);
+  };
+  if (known && std::ranges::none_of(parameterRows(), differs)) return;
+  TuningParameters unruled = *parameters;
+  unruled.policy.enabled = false;
+  const Result<ValidatedParameters> valid = validate(unruled);
+  const auto ground = std::make_shared<GroundOfRow>(highest);
+  Decider decider(valid ? *valid : parameters);
   decider.setGround(ground);
-  const double budgetMs = parameters->measure.budget.value();
-  HoldMemory memory;
-  std::vector<double> ms;
-  ms.reserve(impl_->rows.size());
-  double flip = 0, sumMs = 0;
-  for (const Row& row : impl_->rows) {
+  signalsFlown = parameters.policy() != nullptr;
+  // Whoever watches is told of the height above ground, which a rule may ask for.
+  if (signalsFlown) decider.watchSignals();
+  flown.clear();
+  flown.reserve(rows.size());
+  for (const Row& row : rows) {
     ground->set(row);
     FrameInput input = row.input;
     input.aboveGround = decider.groundBelow(input.state);
     input.highestGround = decider.highestGround();
     decider.forImage(std::move(input));
+    flown.push_back({decider.decision(), decider.signalValues(), decider.signalTracker().viewMoved()});
+  }
+  flownWith = *parameters;
+}
+
+Estimate FlightModel::estimate(const ValidatedParameters& parameters) const {
+  impl_->fly(parameters);
+  const CompiledPolicy* const policy = parameters.policy();
+  const double budgetMs = parameters->measure.budget.value();
+  // A load that nobody asks for is not worth its median.
+  const bool timed = policy != nullptr && policy->asks(Signal::load);
+  DecisionMemory memory;
+  HoldMemory holdMemory;
+  ImageSignals images;
+  Places places;
+  std::vector<double> ms;
+  ms.reserve(impl_->rows.size());
+  double flip = 0, sumMs = 0;
+  for (std::size_t i = 0; i < impl_->rows.size(); ++i) {
+    const Row& row = impl_->rows[i];
+    const Flown& flown = impl_->flown[i];
+    FrameDecision decision = flown.decision;
+    if (policy != nullptr) {
+      SignalValues signals = flown.signals;
+      if (flown.viewMoved) images.viewMoved();
+      images.writeTo(signals);
+      followPolicy(row.input.state.time, signals, parameters, memory, decision);
+    }
     if (!row.over) continue;
-    const FrameDecision& decision = decider.decision();
-    FrameLevers levers = leversOf(decision, *parameters).drawn;
+    FrameLevers levers = askedLevers(decision, *parameters);
     if (parameters->hold.enabled)
-      levers = withBudget(levers, impl_->hold(row, levers, decision, *parameters, memory));
-    const Impl::Image image = impl_->imageOf(row, levers, decision);
-    decider.signalTracker().finished(image.ms, budgetMs, static_cast<std::uint64_t>(image.triangles));
+      levers = withBudget(levers, impl_->hold(row, levers, decision, *parameters, places, holdMemory));
+    const Impl::Image image = impl_->imageOf(row, levers, decision, places);
+    if (policy != nullptr)
+      images.finished(timed ? image.ms : kNan, budgetMs, static_cast<std::uint64_t>(image.triangles));
     ms.push_back(image.ms);
     sumMs += image.ms;
     flip += image.flip;

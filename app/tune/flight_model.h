@@ -47,7 +47,8 @@ class FlightModel {
   /// Fits costs to the samples and takes their losses. They must be of the rows of toDraw().
   void learn(const DrawnSamples& samples);
 
-  /// Estimates a preset. Call it after learn().
+  /// Estimates a preset. Call it after learn(), and from one thread at a time: decisions that the last preset
+  /// shares are kept.
   Estimate estimate(const ValidatedParameters& parameters) const;
 
   /// Returns what an image takes of which nothing is ground, milliseconds, in the row where it takes most.

@@ -121,29 +121,6 @@ void decideScheme(double total, const ValidatedParameters& parameters, DecisionM
     decision.reason = choice.band >= 0 ? SchemeReason::in_band : SchemeReason::below_first_band;
 }
 
-/// The levers of the preset's policy. `total` is what the occlusion rests at where no rule sets it; unset if
-/// the memberships are unknown.
-PolicyOutcome followPolicy(const CompiledPolicy& policy, const FrameInput& input,
-                           const ValidatedParameters& parameters, std::optional<double> total,
-                           const FrameDecision& soFar, DecisionMemory& memory) {
-  thread_local PolicyDecision decision;  // kept, so that a decision allocates nothing
-  SignalValues signals = input.signalValues;
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  signals[Signal::altitude_membership] = total ? soFar.altitudeMembership : kUnknown;
-  signals[Signal::pitch_membership] = total ? soFar.pitchMembership : kUnknown;
-  policy.decide(signals, decision);
-  LeverValues neutral;
-  for (const LeverRow& row : kLeverRows) neutral[row.lever] = row.neutral;
-  neutral[Lever::occlusion] = total.value_or(0);
-  neutral[Lever::screen_space_error] = parameters->lod.screenSpaceError.value();
-  neutral[Lever::lod_scale] = parameters->lod.scale.value();
-  neutral[Lever::object_error] = parameters->objects.errorPx.value();
-  neutral[Lever::small_feature] = parameters->objects.smallFeature.value();
-  neutral[Lever::object_distance] = parameters->objects.farDistance.value();
-  return {memory.levers.follow(input.state.time, decision.target, neutral).value, policy.levers(),
-          decision.unknownAsked};
-}
-
 }  // namespace
 
 FrameDecision decide(const FrameInput& input, const ValidatedParameters& parameters, DecisionMemory& memory) {
@@ -158,13 +135,38 @@ FrameDecision decide(const FrameInput& input, const WeatherDecision& weather,
                          .motion = decideMotion(input.state, parameters->motion, memory.motion, input.drawn),
                          .weather = weather,
                          .policy = {}};
-  std::optional<double> total = decideTotal(input, parameters, decision);
-  if (const CompiledPolicy* policy = parameters.policy()) {
-    decision.policy = followPolicy(*policy, input, parameters, total, decision, memory);
-    if (total && decision.policy.moves(Lever::occlusion)) total = decision.policy[Lever::occlusion];
-  }
-  if (total) decideScheme(*total, parameters, memory, decision);
+  const std::optional<double> total = decideTotal(input, parameters, decision);
+  const CompiledPolicy* const policy = parameters.policy();
+  // A rule that sets the occlusion replaces the total.
+  if (total && !(policy && policy->moves(Lever::occlusion)))
+    decideScheme(*total, parameters, memory, decision);
+  if (policy) followPolicy(input.state.time, input.signalValues, parameters, memory, decision);
   return decision;
+}
+
+void followPolicy(double timeS, SignalValues signals, const ValidatedParameters& parameters,
+                  DecisionMemory& memory, FrameDecision& decision) {
+  const CompiledPolicy& policy = *parameters.policy();
+  thread_local PolicyDecision fired;  // kept, so that a decision allocates nothing
+  const bool known =
+      decision.reason != SchemeReason::invalid_input && decision.reason != SchemeReason::altitude_unknown;
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  signals[Signal::altitude_membership] = known ? decision.altitudeMembership : kUnknown;
+  signals[Signal::pitch_membership] = known ? decision.pitchMembership : kUnknown;
+  policy.decide(signals, fired);
+  LeverValues neutral;
+  for (const LeverRow& row : kLeverRows) neutral[row.lever] = row.neutral;
+  // What the occlusion rests at where no rule sets it.
+  neutral[Lever::occlusion] = known ? totalOf(decision, *parameters) : 0;
+  neutral[Lever::screen_space_error] = parameters->lod.screenSpaceError.value();
+  neutral[Lever::lod_scale] = parameters->lod.scale.value();
+  neutral[Lever::object_error] = parameters->objects.errorPx.value();
+  neutral[Lever::small_feature] = parameters->objects.smallFeature.value();
+  neutral[Lever::object_distance] = parameters->objects.farDistance.value();
+  decision.policy = {memory.levers.follow(timeS, fired.target, neutral).value, policy.levers(),
+                     fired.unknownAsked};
+  if (known && policy.moves(Lever::occlusion))
+    decideScheme(decision.policy[Lever::occlusion], parameters, memory, decision);
 }
 
 void setBand(FrameDecision& decision, const BandList& bands, int band) {
@@ -188,6 +190,13 @@ LeverChain leversOf(const FrameDecision& d, const TuningParameters& parameters) 
   chain.policy = withPolicy(chain.weather, d.policy, d.motion, d.occlusionResolution);
   chain.drawn = chain.policy;
   return chain;
+}
+
+FrameLevers askedLevers(const FrameDecision& d, const TuningParameters& parameters) {
+  // What the memberships ask for counts only where no rule replaced it, and there it is the decision's.
+  const FrameLevers preset = presetLevers(parameters, d.occlusionResolution);
+  return withPolicy(withWeather(withMotion(preset, d.motion), d.weather), d.policy, d.motion,
+                    d.occlusionResolution);
 }
 
 LeverChain leversIn(const WeatherDecision& weather, FrameDecision decision,

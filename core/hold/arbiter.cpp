@@ -47,7 +47,32 @@ struct Settings {
 struct Errors {
   std::array<double, kErrorPlaces + 1> value{}, loss{}, triangles{};
   std::size_t first = 1, size = 1;
+  /// Visits what is asked for, and the places above it.
+  template <class Visit>
+  void forEach(const Visit& visit) const {
+    for (std::size_t e = 0; e < size; e = std::max(e + 1, first)) visit(static_cast<std::uint8_t>(e));
+  }
 };
+
+/// Where an allowed error lies on a ladder: so far from a step to the next.
+struct OnLadder {
+  std::size_t low = 0, high = 0;
+  double part = 0;
+  double operator()(const TriangleLadder& ladder) const {
+    return ladder[low] + (ladder[high] - ladder[low]) * part;
+  }
+};
+OnLadder onLadder(double askedPx, double errorPx) {
+  const double places =
+      askedPx > 0 && errorPx > askedPx ? double{kPlacesPerOctave} * std::log2(errorPx / askedPx) : 0;
+  const double toNext = placesToNext(askedPx), last = static_cast<double>(kErrorSteps - 1);
+  const double at = std::min(places < toNext ? places / toNext : 1 + places - toNext, last);
+  OnLadder on;
+  on.low = static_cast<std::size_t>(std::min(std::floor(at + 1e-6), last));
+  on.high = std::min<std::size_t>(on.low + 1, kErrorSteps - 1);
+  on.part = std::max(at - static_cast<double>(on.low), 0.0);
+  return on;
+}
 
 struct Choice {
   Errors error;
@@ -56,23 +81,46 @@ struct Choice {
   Settings<2> blur;
 };
 
-Choice choiceOf(const HoldGiven& given, const HoldParameters& p) {
-  Choice c;
-  const HeldLevers& asked = given.asked;
-  Errors& e = c.error;
-  e.value[0] = asked.errorPx;
-  e.triangles[0] = given.triangles[0];
+/// The places of the scale from what is asked for to the most that is allowed. Image after image asks for the
+/// same, and their logarithms would take longer than all the rest of a decision.
+struct ErrorScale {
+  double askedPx = kNan, mostPx = kNan;
+  Errors errors;  ///< with the loss of each, and no triangles
+  std::array<OnLadder, kErrorPlaces + 1> on{};
+};
+const ErrorScale& scaleBetween(double askedPx, double mostPx) {
+  thread_local ErrorScale scale;
+  if (scale.askedPx == askedPx && scale.mostPx == mostPx) return scale;
+  scale = {.askedPx = askedPx, .mostPx = mostPx, .errors = {}, .on = {}};
+  Errors& e = scale.errors;
   for (std::size_t i = 1; i <= kErrorPlaces; ++i) {
-    const double errorPx = errorAtPlace(static_cast<std::uint8_t>(i), asked.errorPx);
-    if (errorPx > p.errorMaximum.value() * (1 + 1e-9)) break;
+    const double errorPx = errorAtPlace(static_cast<std::uint8_t>(i), askedPx);
+    if (errorPx > mostPx * (1 + 1e-9)) break;
     e.size = i + 1;
-    if (errorPx <= asked.errorPx) {
+    if (errorPx <= askedPx) {
       e.first = i + 1;
       continue;
     }
     e.value[i] = errorPx;
-    e.triangles[i] = trianglesAt(given.triangles, asked.errorPx, errorPx);
-    e.loss[i] = p.lossError.value() * errorLoss(errorPx, asked.errorPx);
+    e.loss[i] = errorLoss(errorPx, askedPx);
+    scale.on[i] = onLadder(askedPx, errorPx);
+  }
+  return scale;
+}
+
+Choice choiceOf(const HoldGiven& given, const HoldParameters& p) {
+  Choice c;
+  const HeldLevers& asked = given.asked;
+  const ErrorScale& above = scaleBetween(asked.errorPx, p.errorMaximum.value());
+  Errors& e = c.error;
+  e.first = above.errors.first;
+  e.size = above.errors.size;
+  e.value[0] = asked.errorPx;
+  e.triangles[0] = given.triangles[0];
+  for (std::size_t i = e.first; i < e.size; ++i) {
+    e.value[i] = above.errors.value[i];
+    e.triangles[i] = above.on[i](given.triangles);
+    e.loss[i] = p.lossError.value() * above.errors.loss[i];
   }
   c.scale.addSteps(asked.renderScale, p.renderScaleMinimum.value(), kScaleStep, [&](double scale) {
     return p.lossRenderScale.value() * scaleLoss(scale, asked.renderScale);
@@ -110,22 +158,21 @@ class Search {
  public:
   /// `kept` is the place of the allowed error in the image before; kNoPlace if it cannot stay there.
   Search(const HoldGiven& given, const Choice& choice, std::size_t kept)
-      : given_(given), choice_(choice), kept_(kept) {}
+      : given_(given), choice_(choice), kept_(kept) {
+    const auto last = [](std::size_t size) { return static_cast<std::uint8_t>(size - 1); };
+    choice_.error.forEach([&](std::uint8_t error) {
+      quickestMs_[error] =
+          timeAt({error, last(choice_.scale.size), last(choice_.particles.size), last(choice_.blur.size)});
+      leastMs_ = std::min(leastMs_, quickestMs_[error]);
+    });
+  }
 
   double timeAt(const HoldSteps& s) const { return predictAt(s).total(); }
   StageTimes predictAt(const HoldSteps& s) const {
     return predict(given_.cost, loadOf(given_, leversAt(choice_, s), choice_.error.triangles[s.error]));
   }
   /// Returns the time of the quickest setting.
-  double leastMs() const {
-    const auto last = [](std::size_t size) { return static_cast<std::uint8_t>(size - 1); };
-    double least = kInfinity;
-    forEachError([&](std::uint8_t error) {
-      least = std::min(least, timeAt({error, last(choice_.scale.size), last(choice_.particles.size),
-                                      last(choice_.blur.size)}));
-    });
-    return least;
-  }
+  double leastMs() const { return leastMs_; }
   /// Returns what is asked for if it takes at most `limitMs`; else, of all settings that do and lose less
   /// than `lost`, the one that loses least, and of those that lose the same the quickest. A setting that
   /// exchanges levels counts as losing more. It is unset if there is none.
@@ -133,36 +180,38 @@ class Search {
     if (timeAt({}) <= limitMs) return HoldSteps{};
     std::optional<HoldSteps> best;
     double bestLoss = lost, bestMs = 0;
-    forEach([&](const HoldSteps& s) {
-      const double loss = (s.error != kept_ ? kExchange : 1) * lossAt(choice_, s);
-      if (best ? loss > bestLoss : !(loss < lost)) return;
-      const double ms = timeAt(s);
-      if (!(ms <= limitMs) || (best && loss == bestLoss && ms >= bestMs)) return;
-      best = s, bestLoss = loss, bestMs = ms;
+    choice_.error.forEach([&](std::uint8_t error) {
+      // No cost is below 0, so that no setting of a place is quicker than its last.
+      if (quickestMs_[error] > limitMs) return;
+      HoldSteps s{error};
+      // Losses rise from step to step of each lever: where one loses too much, those after it do as well.
+      const auto losesTooMuch = [&] {
+        const double loss = lossOf(s);
+        return best ? loss > bestLoss : !(loss < lost);
+      };
+      for (s.renderScale = 0; s.renderScale < choice_.scale.size; ++s.renderScale) {
+        s.particles = s.blur = 0;
+        if (losesTooMuch()) break;
+        for (; s.particles < choice_.particles.size; ++s.particles)
+          for (s.blur = 0; s.blur < choice_.blur.size; ++s.blur) {
+            if (losesTooMuch()) break;
+            const double loss = lossOf(s), ms = timeAt(s);
+            if (!(ms <= limitMs) || (best && loss == bestLoss && ms >= bestMs)) continue;
+            best = s, bestLoss = loss, bestMs = ms;
+          }
+      }
     });
     return best;
   }
 
  private:
-  /// Visits what is asked for, and the places above it.
-  template <class Visit>
-  void forEachError(const Visit& visit) const {
-    for (std::size_t e = 0; e < choice_.error.size; e = std::max(e + 1, choice_.error.first))
-      visit(static_cast<std::uint8_t>(e));
-  }
-  template <class Visit>
-  void forEach(const Visit& visit) const {
-    forEachError([&](std::uint8_t error) {
-      HoldSteps s{error};
-      for (s.renderScale = 0; s.renderScale < choice_.scale.size; ++s.renderScale)
-        for (s.particles = 0; s.particles < choice_.particles.size; ++s.particles)
-          for (s.blur = 0; s.blur < choice_.blur.size; ++s.blur) visit(s);
-    });
-  }
+  double lossOf(const HoldSteps& s) const { return (s.error != kept_ ? kExchange : 1) * lossAt(choice_, s); }
 
   const HoldGiven& given_;
   const Choice& choice_;
   std::size_t kept_;
+  std::array<double, kErrorPlaces + 1> quickestMs_{};
+  double leastMs_ = kInfinity;
 };
 
 /// Returns the time since the last image, milliseconds; 0 if the clock stands, goes back or is not a number.
@@ -219,14 +268,7 @@ double errorAtPlace(std::uint8_t place, double askedPx) {
 }
 
 double trianglesAt(const TriangleLadder& ladder, double askedPx, double errorPx) {
-  const double places =
-      askedPx > 0 && errorPx > askedPx ? double{kPlacesPerOctave} * std::log2(errorPx / askedPx) : 0;
-  const double toNext = placesToNext(askedPx), last = static_cast<double>(kErrorSteps - 1);
-  const double at = std::min(places < toNext ? places / toNext : 1 + places - toNext, last);
-  const auto low = static_cast<std::size_t>(std::min(std::floor(at + 1e-6), last));
-  const std::size_t high = std::min<std::size_t>(low + 1, kErrorSteps - 1);
-  const double part = std::max(at - static_cast<double>(low), 0.0);
-  return ladder[low] + (ladder[high] - ladder[low]) * part;
+  return onLadder(askedPx, errorPx)(ladder);
 }
 
 FrameLoad loadOf(const HoldGiven& given, const HeldLevers& levers, double triangles) {

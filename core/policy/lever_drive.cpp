@@ -36,6 +36,8 @@ const LeverValues& LeverDrive::follow(double time, const LeverValues& targets, c
       value = target;
       continue;
     }
+    // A lever that rests where it is to be needs no logarithm.
+    if (value == target && !(s.moving & bit)) continue;
     if (distance(row, value, target) > row.deadBand) s.moving |= bit;
     if (!(s.moving & bit) || !(step > 0)) continue;
     value = moved(row, value, target, row.ratePerS * step);

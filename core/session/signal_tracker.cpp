@@ -30,6 +30,7 @@ void SignalTracker::push(const AircraftState& state, std::optional<Metres> above
                          const std::optional<Velocity>& velocity, const WeatherDecision& weather) {
   const double dt = time_ ? state.time - *time_ : kUnknown;
   const bool follows = dt > 0 && dt <= kLongestGapS;
+  viewMoved_ = false;
   if (dt == 0) return;  // the same moment again
 
   values_[Signal::altitude] = finiteOr(state.position.height.in<Feet>(), kUnknown);
@@ -54,7 +55,8 @@ void SignalTracker::push(const AircraftState& state, std::optional<Metres> above
   const Attitude look = lineOfSight(state.attitude, state.head);
   if (const View now{state.position, look, weather.visibilityM}; !view_ || !restsAt(*view_, now)) {
     view_ = now;
-    loadLoop_.turns = trianglesLoop_.turns = 0;
+    viewMoved_ = true;
+    images_.viewMoved();
   }
   const Vec3 sight = directionOf(look);
   const Vec3 head = state.head ? directionOf(*state.head) : Vec3{};
@@ -88,7 +90,7 @@ bool SignalTracker::restsAt(const View& view, const View& now) {
 }
 
 /// Reports whether the signal follows; notes the direction and the turn if it does.
-bool SignalTracker::mayChange(double from, double to, double band, bool risesAlways, Loop& loop) {
+bool ImageSignals::mayChange(double from, double to, double band, bool risesAlways, Loop& loop) {
   constexpr int kMostTurns = 2;
   const int way = (to > from) - (to < from);
   if (way != 0 && way == -loop.goes) {
@@ -101,18 +103,17 @@ bool SignalTracker::mayChange(double from, double to, double band, bool risesAlw
   return true;
 }
 
-void SignalTracker::finished(double workMs, double budgetMs, std::uint64_t triangles) {
+void ImageSignals::finished(double workMs, double budgetMs, std::uint64_t triangles) {
   constexpr double kTrianglesBand = 0.3, kLoadBand = 0.15;
   const double counted = static_cast<double>(triangles);
-  if (mayChange(values_[Signal::triangles], counted, kTrianglesBand, false, trianglesLoop_))
-    values_[Signal::triangles] = counted;
+  if (mayChange(triangles_, counted, kTrianglesBand, false, trianglesLoop_)) triangles_ = counted;
   if (!(workMs > 0 && budgetMs > 0 && std::isfinite(workMs) && std::isfinite(budgetMs))) return;
-  loads_[loadCount_++ % loads_.size()] = workMs / budgetMs;
+  loads_[loadCount_++ % kLoadImages] = workMs / budgetMs;
   std::array<double, kLoadImages> sorted = loads_;
   const std::size_t count = std::min(loadCount_, sorted.size());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(count));
-  if (mayChange(values_[Signal::load], *middle, kLoadBand, true, loadLoop_)) values_[Signal::load] = *middle;
+  if (mayChange(load_, *middle, kLoadBand, true, loadLoop_)) load_ = *middle;
 }
 
 }  // namespace trimtab

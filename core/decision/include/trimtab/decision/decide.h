@@ -28,8 +28,16 @@ FrameDecision decide(const FrameInput& input, const ValidatedParameters& paramet
 FrameDecision decide(const FrameInput& input, const WeatherDecision& weather,
                      const ValidatedParameters& parameters, DecisionMemory& memory);
 
+/// Lets the preset's policy, which it must have, move the levers of a decision, at the time of its state. It
+/// is the last step of decide(); the others do not depend on rules. `signals` need no memberships: the
+/// decision has them.
+void followPolicy(double timeS, SignalValues signals, const ValidatedParameters& parameters,
+                  DecisionMemory& memory, FrameDecision& decision);
+
 /// Returns the chain of the levers up to the policy (frame_levers.h); `drawn` is as the policy leaves them.
 LeverChain leversOf(const FrameDecision& decision, const TuningParameters& parameters);
+/// Returns the last step of leversOf() alone, for whoever needs no chain: in a third of the time.
+FrameLevers askedLevers(const FrameDecision& decision, const TuningParameters& parameters);
 /// Returns the chain in another weather, whose far distance no rule changes: for measuring a weather by
 /// itself.
 LeverChain leversIn(const WeatherDecision& weather, FrameDecision decision,
