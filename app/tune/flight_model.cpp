@@ -167,19 +167,24 @@ struct FlightModel::Impl {
   std::vector<SampleRow> toDraw;
   std::optional<Metres> highest;
   FittedCost cost;
-  /// By which part the fitted costs miss the samples' times: the median, and what 95 % stay below.
+  /// By which part the fitted costs miss the samples' times: the median, and what 90 % stay below.
   struct Fit {
-    double median = 0, p95 = 0;
+    double median = 0, p90 = 0;
   };
   Fit fit;
 
   struct Image {
     double ms = 0, triangles = 0, flip = 0;
   };
+  /// What the arbiter of the budget remembers, and what it decided last.
+  struct Holding {
+    HoldMemory memory;
+    HeldLevers last;
+  };
   Image imageOf(const Row& row, const FrameLevers& levers, const FrameDecision& decision,
                 Places& places) const;
   HeldLevers hold(const Row& row, const FrameLevers& asked, const FrameDecision& decision,
-                  const TuningParameters& parameters, Places& places, HoldMemory& memory) const;
+                  const TuningParameters& parameters, Places& places, Holding& holding) const;
 
   /// What the rows are before any rule, by the parameters of the last estimate: presets of which only levers
   /// and rules differ share it.
@@ -228,7 +233,7 @@ FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameL
 /// Returns the levers to which the arbiter of the budget lowers a row's image.
 HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, const FrameDecision& decision,
                                    const TuningParameters& parameters, Places& places,
-                                   HoldMemory& memory) const {
+                                   Holding& holding) const {
   HoldGiven given;
   given.timeS = row.input.state.time;
   given.budgetMs = parameters.measure.budget.value();
@@ -255,10 +260,14 @@ HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, con
         &ClockCoefficients::perParticles, &ClockCoefficients::perWeatherMpx, &ClockCoefficients::other})
     given.cost.*part *= row.costs;
   given.cost.known = true;
-  const double ms = predict(given.cost, loadOf(given, given.asked, given.triangles[0])).total();
-  given.cost.halfBandMs = fit.p95 * ms;
+  // As in flight, the band is that of an image as it is likely to be drawn: with the levers of the last one.
+  const HeldLevers& likely = holding.memory.begun ? holding.last : given.asked;
+  const double triangles =
+      trianglesAt(given.triangles, asked.errorPx, std::max(likely.errorPx, asked.errorPx));
+  const double ms = predict(given.cost, loadOf(given, likely, triangles)).total();
+  given.cost.halfBandMs = fit.p90 * ms;
   given.cost.offMs = fit.median * ms;
-  return arbitrate(given, parameters.hold, memory).held;
+  return holding.last = arbitrate(given, parameters.hold, holding.memory).held;
 }
 
 FlightModel::FlightModel(const Scene& scene, const Flight& flight, const ValidatedParameters& start,
@@ -292,7 +301,7 @@ FlightModel::FlightModel(const Scene& scene, const Flight& flight, const Validat
     if (rows[i].over) over.push_back(i);
     rows[i].tilesAhead = rows[i].tiles;
     rows[i].objectsAhead = rows[i].objects;
-    for (std::size_t j = i + 1; j < rows.size() && j <= i + ahead; ++j) {
+    for (std::size_t j = i + 1; j < rows.size() && rows[j].row <= rows[i].row + ahead; ++j) {
       mostOf(rows[i].tilesAhead, rows[j].tiles);
       mostOf(rows[i].objectsAhead, rows[j].objects);
     }
@@ -335,7 +344,7 @@ void FlightModel::learn(const DrawnSamples& samples) {
     costs[r] = rankOf(ratios, 0.5);
     for (const double ratio : ratios) off.push_back(std::abs(ratio / costs[r] - 1));
   }
-  if (!off.empty()) impl_->fit = {rankOf(off, 0.5), rankOf(off, 0.95)};
+  if (!off.empty()) impl_->fit = {rankOf(off, 0.5), rankOf(off, 0.9)};
   const auto mix = [](const auto& a, const auto& b, double part, Steps& into) {
     for (std::size_t s = 0; s < kLossSteps; ++s) into[s] = static_cast<float>(std::lerp(a[s], b[s], part));
   };
@@ -392,7 +401,7 @@ Estimate FlightModel::estimate(const ValidatedParameters& parameters) const {
   // A load that nobody asks for is not worth its median.
   const bool timed = policy != nullptr && policy->asks(Signal::load);
   DecisionMemory memory;
-  HoldMemory holdMemory;
+  Impl::Holding holding;
   ImageSignals images;
   Places places;
   std::vector<double> ms;
@@ -411,7 +420,7 @@ Estimate FlightModel::estimate(const ValidatedParameters& parameters) const {
     if (!row.over) continue;
     FrameLevers levers = askedLevers(decision, *parameters);
     if (parameters->hold.enabled)
-      levers = withBudget(levers, impl_->hold(row, levers, decision, *parameters, places, holdMemory));
+      levers = withBudget(levers, impl_->hold(row, levers, decision, *parameters, places, holding));
     const Impl::Image image = impl_->imageOf(row, levers, decision, places);
     if (policy != nullptr)
       images.finished(timed ? image.ms : kNan, budgetMs, static_cast<std::uint64_t>(image.triangles));
