@@ -141,6 +141,56 @@ TEST_F(FlightModelTest, aBudgetIsHeldByTheEstimate) {
   EXPECT_NEAR(held(3).p99Ms, wholeMs, 1e-9) << "what fits stays";
 }
 
+TEST_F(FlightModelTest, aHeldBudgetGivesUpNoMoreThanItsOwnImagesAskFor) {
+  // Times that lie 5 % beside the fit, to both sides. The arbiter keeps away from the budget by the band of
+  // an image as it draws it, not of the far longer one that is asked for.
+  DrawnSamples noisy = world().samples;
+  for (std::size_t i = 0; i < noisy.images.size(); ++i)
+    noisy.images[i].ms = (0.05 + 1e-3 * noisy.images[i].load.triangles) * (i % 2 ? 1.05 : 0.95);
+  FlightModel model({land(), kWidth, kHeight}, flight(), edited([](TuningParameters&) {}), 6);
+  model.learn(noisy);
+  const auto finest = [](TuningParameters& p) { p.lod.screenSpaceError = Pixels{1}; };
+  const double wholeMs = model.estimate(edited(finest)).p95Ms;
+  const Estimate held = model.estimate(edited([&](TuningParameters& p) {
+    finest(p);
+    p.hold.enabled = true;
+    p.measure.budget = Milliseconds{0.5 * wholeMs};
+  }));
+  EXPECT_GT(held.p95Ms, 0.8 * 0.5 * wholeMs);
+  EXPECT_LE(held.p95Ms, 0.5 * wholeMs);
+}
+
+TEST_F(FlightModelTest, whatPresetsShareIsAsIfEachWereAlone) {
+  const auto policy = [](TuningParameters& p) {
+    p.policy.enabled = true;
+    p.policy.terms.line = {"load high = ramp 0.1 0.4", "sight_rate fast = ramp 1 20",
+                           "above_ground low = ramp 3000 500"};
+    p.policy.rules.line = {"if load is high then screen_space_error = 16",
+                           "if sight_rate is fast then lod_scale = 3",
+                           "if above_ground is low then occlusion = 2"};
+  };
+  const std::vector<std::function<void(TuningParameters&)>> edits{
+      [](TuningParameters&) {},
+      [](TuningParameters& p) { p.lod.scale = Ratio{3}; },
+      policy,
+      [&](TuningParameters& p) { policy(p), p.altitude.reference = AltitudeReference::above_ground; },
+      [](TuningParameters& p) { p.pitch.curve.point[0].y = 0.7; },
+      [](TuningParameters& p) { p.weather.step = WeatherStep::rain_medium; },
+      [&](TuningParameters& p) { policy(p), p.weather.step = WeatherStep::snow_heavy; },
+      [](TuningParameters& p) { p.motion.control = MotionControl::off; },
+      policy,
+      [](TuningParameters& p) { p.hold.enabled = true; },
+  };
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    FlightModel alone({land(), kWidth, kHeight}, flight(), edited([](TuningParameters&) {}), 6);
+    alone.learn(world().samples);
+    estimate(edits[i % 2 ? 0 : 2]);  // whatever this one has in common with those
+    const Estimate shared = estimate(edits[i]), own = alone.estimate(edited(edits[i]));
+    EXPECT_EQ(shared.meanMs, own.meanMs) << i;
+    EXPECT_EQ(shared.flip, own.flip) << i;
+  }
+}
+
 TEST_F(FlightModelTest, lookingForHiddenGroundIsTheCullingsOwn) {
   // Whether anything is looked for changes the time and never the picture.
   const auto membership = [](double y) {

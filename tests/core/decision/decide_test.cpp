@@ -289,6 +289,8 @@ TEST(Decide, theChainKeepsWhatThePresetWouldHaveDrawn) {
   EXPECT_EQ(chain.weather.lodScale, 1);
   EXPECT_EQ(chain.drawn.lodScale, 3);
   EXPECT_EQ(chain.drawn, chain.policy);
+  EXPECT_EQ(askedLevers(ruled, *parameters), chain.policy) << "the last step alone";
+  EXPECT_EQ(askedLevers(plain, *parameters), leversOf(plain, *parameters).policy);
 }
 
 }  // namespace
