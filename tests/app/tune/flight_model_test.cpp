@@ -174,7 +174,10 @@ TEST_F(FlightModelTest, whatPresetsShareIsAsIfEachWereAlone) {
       [](TuningParameters& p) { p.lod.scale = Ratio{3}; },
       policy,
       [&](TuningParameters& p) { policy(p), p.altitude.reference = AltitudeReference::above_ground; },
-      [](TuningParameters& p) { p.pitch.curve.point[0].y = 0.7; },
+      [](TuningParameters& p) {
+        for (std::size_t i = 0; i < p.pitch.curve.size; ++i) p.pitch.curve.point[i].y = 0;
+        for (std::size_t i = 0; i < p.altitude.curve.size; ++i) p.altitude.curve.point[i].y = 0;
+      },
       [](TuningParameters& p) { p.weather.step = WeatherStep::rain_medium; },
       [&](TuningParameters& p) { policy(p), p.weather.step = WeatherStep::snow_heavy; },
       [](TuningParameters& p) { p.motion.control = MotionControl::off; },
