@@ -11,6 +11,7 @@
 #include "app/tune/search_space.h"
 #include "bench_scene.h"
 #include "row.h"
+#include "sample_world.h"
 #include "tests/support.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/scene/error_meter.h"
@@ -140,23 +141,6 @@ void rankRows(Report& report, experiment::Stage& stage,
                                 .what = "rank correlation of estimated and drawn mean FLIP, " + of,
                                 .value = rankCorrelation(estimatedFlip, flip),
                                 .unit = ""}));
-}
-
-/// The sample with what stands on it, made once into a folder beside the temporary files.
-std::shared_ptr<const terrain::Database> sampleWorld() {
-  const auto folder = std::filesystem::temp_directory_path() / "trimtab-bench" / "world";
-  const std::string cli = test::program("trimtab-cli").string();
-  if (!terrain::Database::open(folder / "database")) {
-    std::filesystem::create_directories(folder);
-    const std::string tif = (folder / "sample.tif").string();
-    for (const std::string& command :
-         {cli + " terrain sample -o " + tif, cli + " terrain bake " + tif + " --objects " +
-                                                 (folder / "sample-objects.csv").string() + " -o " +
-                                                 (folder / "database").string()})
-      if (const test::Ran made = test::run(command); made.exitCode != 0) std::fputs(made.err.c_str(), stderr);
-  }
-  const auto opened = terrain::Database::open(folder / "database");
-  return opened ? *opened : nullptr;
 }
 
 int run(int argc, char** argv) {
