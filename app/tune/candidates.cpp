@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 namespace trimtab::tune {
 namespace {
@@ -57,21 +58,22 @@ double Judge::merit(const Objectives& objectives) const {
 
 std::vector<Candidate> chosen(const Plan& plan, std::span<const Candidate> front, std::size_t count,
                               double stretch) {
-  std::vector<std::size_t> numbers;
-  if (front.empty()) return {};
+  std::set<std::size_t> numbers;
+  count = std::min(count, front.size());
+  if (count == 0) return {};
   const std::size_t limited = plan.maxError ? 1 : 0;
-  const std::optional<double> limit = plan.maxError ? plan.maxError : plan.budgetMs;
-  if (limit) {
+  if (const std::optional<double> limit = plan.maxError ? plan.maxError : plan.budgetMs) {
     // Estimates miss by some per cent, so presets on both sides of the limit are drawn, more inside it.
     constexpr double kAt[] = {0.97, 0.9, 0.8, 1.05, 0.65, 0.5};
     for (const double part : kAt)
-      if (numbers.size() < count) numbers.push_back(within(front, limited, *limit * stretch * part));
+      if (numbers.size() < count) numbers.insert(within(front, limited, *limit * stretch * part));
+    // Where the front is sparse, several of these are one: the nearest others make up for them.
+    for (std::size_t next = *numbers.begin(); numbers.size() < count && next-- > 0;) numbers.insert(next);
+    for (std::size_t next = 0; numbers.size() < count; ++next) numbers.insert(next);
   } else {
     for (std::size_t k = 0; k < count; ++k)
-      numbers.push_back(count == 1 ? front.size() / 2 : k * (front.size() - 1) / (count - 1));
+      numbers.insert(count == 1 ? front.size() / 2 : k * (front.size() - 1) / (count - 1));
   }
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   std::vector<Candidate> presets;
   for (const std::size_t number : numbers) presets.push_back(front[number]);
   return presets;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/harness/flown_frames.h"
+#include "app/tune/candidates.h"
 #include "tests/app/harness/mountain_plan.h"
 #include "tests/app/ig_support.h"
 #include "trimtab/preset/preset.h"
@@ -206,6 +207,44 @@ TEST_F(FlightModelTest, lookingForHiddenGroundIsTheCullingsOwn) {
   const Estimate always = estimate(membership(1)), never = estimate(membership(0));
   EXPECT_EQ(always.flip, never.flip);
   EXPECT_NE(always.medianMs, never.medianMs);
+}
+
+TEST_F(FlightModelTest, whatWinsNothingIsPutBackToTheStart) {
+  const Plan plan;
+  const TuningParameters start = *edited([](TuningParameters&) {});
+  const auto space = SearchSpace::make(start, {"lod.scale", "objects.far_m", "static_lod.error_px"});
+  ASSERT_TRUE(space) << toString(space.findings());
+  const Judge judge(plan, *space, std::span(world().model.get(), 1));
+  const std::vector<double> at = space->placeOf(start);
+  const auto putBack = [&](double scale) {
+    // No object stands here, and the terrain is not drawn as trees.
+    TuningParameters moved = start;
+    moved.lod.scale = Ratio{scale};
+    Candidate candidate{space->placeOf(moved), {}};
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (space->axes()[i].name != "lod.scale") candidate.place[i] = at[i] < 0.5 ? at[i] + 0.3 : at[i] - 0.3;
+    candidate.objectives = judge(candidate.place);
+    return simplified(judge, at, candidate);
+  };
+  EXPECT_EQ(putBack(1.0005).place, at) << "a saving that nobody can measure is none";
+  const Candidate kept = putBack(1.02);
+  for (std::size_t i = 0; i < at.size(); ++i)
+    EXPECT_EQ(kept.place[i] != at[i], space->axes()[i].name == "lod.scale") << space->axes()[i].name;
+}
+
+TEST_F(FlightModelTest, theBestChangeOfOneParameterIsFoundToAThirtiethOfItsRange) {
+  Plan plan;
+  const TuningParameters start = *edited([](TuningParameters&) {});
+  const auto space = SearchSpace::make(start, {"lod.scale=1..8"});
+  const Judge judge(plan, *space, std::span(world().model.get(), 1));
+  // Coarser is quicker and worse, so that the best lies at the limit, wherever that is.
+  for (const double part : {0.2, 0.35, 0.6}) {
+    const std::vector<double> wanted{part};
+    plan.budgetMs = judge(wanted)[0];
+    const Candidate best = bestSingle(judge, space->placeOf(start));
+    EXPECT_LE(best.objectives[0], *plan.budgetMs);
+    EXPECT_NEAR(best.place[0], part, 1.0 / 30) << part;
+  }
 }
 
 TEST(FlightModel, aFlightBesideTheTerrainHasNothingToDraw) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/tune/candidates.h"
 #include "app/tune/search_space.h"
 
 namespace trimtab::tune {
@@ -110,6 +111,48 @@ TEST(Search, whatIsNoNumberNeverWins) {
   const std::vector<Candidate> front = frontOf(search);
   ASSERT_FALSE(front.empty());
   for (const Candidate& candidate : front) EXPECT_GE(candidate.place[0], 0.5);
+}
+
+/// A front of so many presets from 10 to 30 ms.
+std::vector<Candidate> evenFront(std::size_t count) {
+  std::vector<Candidate> front;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(count - 1);
+    front.push_back({{part}, {10 + 20 * part, 0.05 - 0.04 * part}});
+  }
+  return front;
+}
+
+TEST(Candidates, areDrawnOnBothSidesOfTheLimitAndMoreInsideIt) {
+  Plan plan;
+  plan.budgetMs = 20;
+  const std::vector<Candidate> drawn = chosen(plan, evenFront(1000), 4, 1);
+  ASSERT_EQ(drawn.size(), 4u);
+  EXPECT_GT(drawn[3].objectives[0], 20) << "an estimate may be too long";
+  EXPECT_NEAR(drawn[3].objectives[0], 20, 1.1);
+  EXPECT_LT(drawn[2].objectives[0], 20);
+  EXPECT_NEAR(drawn[2].objectives[0], 20, 0.7);
+  EXPECT_LT(drawn[0].objectives[0], 0.85 * 20) << "or too short by as much as estimates miss";
+  plan.budgetMs.reset();
+  plan.maxError = 0.03;
+  const std::vector<Candidate> exact = chosen(plan, evenFront(1000), 4, 1);
+  EXPECT_GT(exact[0].objectives[1], 0.03);
+  EXPECT_LT(exact[1].objectives[1], 0.03);
+}
+
+TEST(Candidates, areAsManyAsAskedForWhereTheFrontIsSparse) {
+  Plan plan;
+  for (const bool limited : {true, false})
+    for (const double budgetMs : {1.0, 12.0, 20.0, 100.0})
+      for (std::size_t size = 2; size < 12; ++size)
+        for (std::size_t count = 1; count < 12; ++count) {
+          plan.budgetMs = limited ? std::optional(budgetMs) : std::nullopt;
+          const std::vector<Candidate> drawn = chosen(plan, evenFront(size), count, 1);
+          ASSERT_EQ(drawn.size(), std::min(count, size)) << budgetMs << " ms, " << count << " of " << size;
+          for (std::size_t i = 1; i < drawn.size(); ++i)
+            EXPECT_GT(drawn[i].objectives[0], drawn[i - 1].objectives[0]) << "each once";
+        }
+  EXPECT_TRUE(chosen(plan, {}, 3, 1).empty());
 }
 
 TEST(Search, endsWhenItIsAsked) {

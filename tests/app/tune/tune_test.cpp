@@ -6,7 +6,9 @@
 
 #include "app/tune/verdict.h"
 #include "tests/app/harness/mountain_plan.h"
+#include "tests/core/scene/foreign/paged_scene.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/scene/osg_database.h"
 
 /// Whole runs over a small terrain.
 namespace trimtab::tune {
@@ -145,6 +147,21 @@ TEST(Tune, refusesBeforeHoursAreSpent) {
                   state.position.latitude = Degrees{-40};
               }),
               HasSubstr("over the terrain mountains"));
+}
+
+TEST(Tune, refusesASceneWhoseLevelsNobodyCanCount) {
+  const test::ScratchDir dir;
+  const test::PagedScene scene(*harness::hills(), dir.path(), ".osgb", true);
+  const auto opened = scene::OsgDatabase::open(scene.file(), {});
+  ASSERT_TRUE(opened) << toString(opened.findings());
+  Plan plan = smallTunePlan();
+  plan.terrain = *opened;
+  plan.terrainName = "paged.osgb";
+  const auto refused = run(plan, dir / "out");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(toString(refused.findings()), HasSubstr("whose levels can be counted"));
+  EXPECT_THAT(toString(refused.findings()), HasSubstr("paged.osgb"));
+  EXPECT_FALSE(fs::exists(dir / "out"));
 }
 
 TEST(Tune, aFolderOfAnotherPlanIsNamedAndKept) {
