@@ -36,7 +36,7 @@ void followPolicy(double timeS, SignalValues signals, const ValidatedParameters&
 
 /// Returns the chain of the levers up to the policy (frame_levers.h); `drawn` is as the policy leaves them.
 LeverChain leversOf(const FrameDecision& decision, const TuningParameters& parameters);
-/// Returns the last step of leversOf() alone, for whoever needs no chain: in a third of the time.
+/// Returns the last step of leversOf() alone, for whoever needs no chain and many of them.
 FrameLevers askedLevers(const FrameDecision& decision, const TuningParameters& parameters);
 /// Returns the chain in another weather, whose far distance no rule changes: for measuring a weather by
 /// itself.
