@@ -35,6 +35,7 @@ TEST(SavedSessionFile, comesBackAndMovesWithItsFolder) {
   SavedSession session;
   session.terrain = "/terrains/alps";
   session.preset = pathIn(dir, "here/mine.json");
+  session.imageGenerator = pathIn(dir, "here/viewer.json");
   session.flight = pathIn(dir, "here/flights/low.csv");
   session.flightPositionS = 12.5;
   session.listenPort = 8004;

@@ -3,6 +3,7 @@
 
 #include <QHeaderView>
 
+#include "views/model/ig_words.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -29,7 +30,8 @@ LeverChainTable::LeverChainTable(QWidget* parent)
   setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
 }
 
-void LeverChainTable::showChain(const LeverChain& chain, const std::array<QString, kLeverSteps>& reasons) {
+void LeverChainTable::showChain(const LeverChain& chain, const std::array<QString, kLeverSteps>& reasons,
+                                const IgProfile* ig) {
   for (std::size_t i = 0; i < kFrameLeverRows.size(); ++i) {
     const FrameLeverRow& row = kFrameLeverRows[i];
     const LeverStep last = lastChange(chain, row);
@@ -41,6 +43,24 @@ void LeverChainTable::showChain(const LeverChain& chain, const std::array<QStrin
     for (const int column : {kDrawn, kChain}) {
       item(int(i), column)->setFont(text);
       item(int(i), column)->setToolTip(tr("%1. %2").arg(whole, reasons[static_cast<std::size_t>(last)]));
+    }
+  }
+  showWhatIgHas(*this, chain, ig);
+}
+
+void showWhatIgHas(QTableWidget& table, const LeverChain& chain, const IgProfile* ig) {
+  for (std::size_t i = 0; i < kFrameLeverRows.size(); ++i) {
+    const FrameLeverRow& row = kFrameLeverRows[i];
+    const QString lacks = lacksText(ig, row.key);
+    const QString says = lacks.isEmpty() ? ownValueText(ig, row, chain) : lacks;
+    const QVariant ink = lacks.isEmpty() ? QVariant() : QVariant(quietColour(table.palette()));
+    QTableWidgetItem& name = *table.verticalHeaderItem(int(i));
+    name.setData(Qt::ForegroundRole, ink);
+    name.setToolTip(says);
+    for (int column = 0; column < table.columnCount(); ++column) {
+      QTableWidgetItem& item = *table.item(int(i), column);
+      item.setData(Qt::ForegroundRole, ink);
+      if (!says.isEmpty()) item.setToolTip(item.toolTip() + QStringLiteral("\n") + says);
     }
   }
 }

@@ -243,6 +243,13 @@ void Draft::apply(const Changes& changes, bool forward) {
   announce(rows);
 }
 
+void Draft::setImageGenerator(std::shared_ptr<const IgProfile> profile, const QString& file) {
+  // Who shows the earlier one may still refer to it while the change is announced.
+  const std::shared_ptr<const IgProfile> before = std::exchange(ig_, std::move(profile));
+  igFile_ = ig_ ? file : QString();
+  emit imageGeneratorChanged();
+}
+
 void Draft::check() {
   Result<ValidatedParameters> result = validate(preset_.parameters);
   findings_ = result.findings();

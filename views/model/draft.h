@@ -5,6 +5,7 @@
 #include <QObject>
 #include <QString>
 #include <QUndoStack>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -13,6 +14,10 @@
 
 #include "trimtab/preset/preset.h"
 #include "trimtab/preset/table.h"
+
+namespace trimtab {
+struct IgProfile;
+}
 
 namespace trimtab::views {
 
@@ -100,6 +105,13 @@ class Draft : public QObject {
 
   MergeToken newToken() { return ++lastToken_; }
 
+  /// Returns the image generator for which the preset is tuned; null if it is this program's own, which has
+  /// every lever. It stays when another preset is loaded, and is no part of any step.
+  const IgProfile* imageGenerator() const { return ig_.get(); }
+  /// Returns the file of its profile.
+  const QString& imageGeneratorFile() const { return igFile_; }
+  void setImageGenerator(std::shared_ptr<const IgProfile> profile, const QString& file);
+
  signals:
   void valueChanged(
       const QString& key);  ///< one a key, also on load, undo and redo; active() is up to date by then
@@ -108,6 +120,7 @@ class Draft : public QObject {
   void loaded();
   void dirtyChanged(bool dirty);
   void referencesChanged();  ///< the file's values or those of the pinned snapshot are others
+  void imageGeneratorChanged();
 
  private:
   class Edit;
@@ -131,6 +144,8 @@ class Draft : public QObject {
   bool activeMoved_ = false;
   QUndoStack stack_;
   MergeToken lastToken_ = 0;
+  std::shared_ptr<const IgProfile> ig_;
+  QString igFile_;
 };
 
 }  // namespace trimtab::views

@@ -12,6 +12,7 @@
 
 #include "trimtab/measure/paired_ratio.h"
 #include "views/controls/fold.h"
+#include "views/controls/lever_chain_table.h"
 #include "views/controls/parameter_lines.h"
 #include "views/model/error_run.h"
 #include "views/model/keys.h"
@@ -163,6 +164,7 @@ BudgetPanel::BudgetPanel(Draft& draft, QWidget* parent)
   layout->addWidget(new Fold(tr("How far it may go"), new ParameterLines(draft, kLimitKeys), true));
   layout->addWidget(new Fold(tr("Numbers for experts"), new ParameterLines(draft, kExpertKeys)));
   connect(&draft_, &Draft::activeChanged, this, [this] { throttle_.request(); });
+  connect(&draft_, &Draft::imageGeneratorChanged, this, &BudgetPanel::refreshLevers);
   refresh();
 }
 
@@ -318,6 +320,7 @@ void BudgetPanel::refreshLevers() {
       item.setToolTip(QString::fromStdString(explain(*chain_, row)));
     }
   }
+  showWhatIgHas(*levers_, *chain_, draft_.imageGenerator());
 }
 
 /// The smaller of two limits counts, so what caution takes beyond the margin is what is left.

@@ -139,6 +139,7 @@ DecisionPanel::DecisionPanel(Draft& draft, QWidget* parent)
   connect(&draft_, &Draft::activeChanged, this, [this] {
     if (any_) throttle_.request();
   });
+  connect(&draft_, &Draft::imageGeneratorChanged, this, &DecisionPanel::refresh);
   refresh();
 }
 
@@ -173,7 +174,8 @@ void DecisionPanel::refresh() {
     levers_->showChain(*frame_.levers,
                        {tr("What the preset asks for"), fromView(trimtab::toText(d.motion.reason)),
                         fromView(trimtab::toText(d.weather.farReason)), policyReason(d.policy),
-                        QString::fromStdString(explain(frame_.hold))});
+                        QString::fromStdString(explain(frame_.hold))},
+                       draft_.imageGenerator());
   std::vector<double> edges;
   for (const Band& band : p.scheme.bands.span()) edges.push_back(band.low);
   const auto text = [](double value) { return QString::number(value, 'f', 3); };

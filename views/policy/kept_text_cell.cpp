@@ -40,9 +40,11 @@ class WordCompleter : public QCompleter {
     const QString typed = edit_.text().mid(begin, edit_.cursorPosition() - begin);
     model_.clear();
     bool whole = typed.isEmpty();
-    for (const auto& [word, name] : words) {
+    for (const auto& [word, name, barred] : words) {
       whole = whole || word == typed;
-      auto* item = new QStandardItem(name.isEmpty() ? word : QStringLiteral("%1 – %2").arg(word, name));
+      const QString more = barred.isEmpty() ? name : barred;
+      auto* item = new QStandardItem(more.isEmpty() ? word : QStringLiteral("%1 – %2").arg(word, more));
+      item->setEnabled(barred.isEmpty());
       item->setData(word, Qt::UserRole);
       model_.appendRow(item);
     }

@@ -20,8 +20,11 @@ class KeptTextCell : public QStyledItemDelegate {
 
   KeptTextCell(Check check, QObject* parent) : QStyledItemDelegate(parent), check_(std::move(check)) {}
 
-  /// A word, and what it is called, "above_ground" and "Height above ground".
-  using Word = std::pair<QString, QString>;
+  struct Word {
+    QString word;      ///< "above_ground"
+    QString name{};    ///< what it is called, "Height above ground"
+    QString barred{};  ///< why it cannot be chosen: it is shown grey, with the reason
+  };
   /// Returns the words that may follow a text.
   using Words = std::function<QList<Word>(const QModelIndex&, const QString& before)>;
   /// Offers words below the editor while one types.

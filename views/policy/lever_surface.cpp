@@ -5,12 +5,14 @@
 #include <QBoxLayout>
 #include <QComboBox>
 #include <QLabel>
+#include <QStandardItemModel>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "term_edit.h"
 #include "trimtab/units/not_finite.h"
+#include "views/model/ig_words.h"
 #include "views/model/theme.h"
 #include "views/plots/cividis.h"
 
@@ -243,6 +245,8 @@ SurfacePage::SurfacePage(PolicyDraft& policy, const PolicyTrack& track, QWidget*
   for (const SignalRow& row : kSignalRows)
     for (QComboBox* box : {x_, y_}) box->addItem(fromView(row.label));
   lever_->setCurrentIndex(static_cast<int>(Lever::screen_space_error));
+  Draft* const draft = &policy.draft();
+  connect(draft, &Draft::imageGeneratorChanged, this, [this, draft] { greyLevers(draft->imageGenerator()); });
   x_->setCurrentIndex(static_cast<int>(Signal::above_ground));
   y_->setCurrentIndex(static_cast<int>(Signal::speed));
   auto *leverRow = new QHBoxLayout, *signalsRow = new QHBoxLayout;
@@ -267,6 +271,17 @@ SurfacePage::SurfacePage(PolicyDraft& policy, const PolicyTrack& track, QWidget*
   layout->addLayout(signalsRow);
   layout->addWidget(surface_, 1);
   setFocusProxy(lever_);
+}
+
+/// A lever that was chosen before stays, so that one can see what the rules would do with it.
+void SurfacePage::greyLevers(const IgProfile* ig) {
+  auto& items = *qobject_cast<QStandardItemModel*>(lever_->model());
+  for (int i = 0; i < items.rowCount(); ++i) {
+    const std::string_view key = kLeverRows[static_cast<std::size_t>(i)].key;
+    const QString lacks = lacksText(ig, key);
+    items.item(i)->setEnabled(lacks.isEmpty());
+    items.item(i)->setToolTip(lacks.isEmpty() ? ownRangeText(ig, key) : lacks);
+  }
 }
 
 void SurfacePage::choose() {

@@ -8,6 +8,10 @@
 
 class QComboBox;
 
+namespace trimtab {
+struct IgProfile;
+}
+
 namespace trimtab::views {
 
 /// A lever's target as a surface over two signals, with the flight's track on it. The other signals have
@@ -71,6 +75,7 @@ class SurfacePage : public QWidget {
 
  private:
   void choose();
+  void greyLevers(const IgProfile* ig);
 
   LeverSurface* surface_;
   QComboBox *lever_, *x_, *y_;

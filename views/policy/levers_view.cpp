@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "trimtab/units/not_finite.h"
+#include "views/model/ig_words.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -30,6 +31,7 @@ double shownPlace(const LeverRow& row, double value) {
 }  // namespace
 
 QString whyText(const PolicyLive& live, Lever lever) {
+  if (const QString lacks = lacksText(live.ig, rowOf(lever).key); !lacks.isEmpty()) return lacks;
   if (!live.decided) return QObject::tr("no policy is switched on");
   if (!live.compiled->moves(lever)) return QObject::tr("no rule sets it: as the preset says");
   std::vector<std::pair<double, std::size_t>> shares;
@@ -52,11 +54,12 @@ LeversView::LeversView(QWidget* parent) : QWidget(parent) {
 
 LeversView::Bar LeversView::barOf(const PolicyLive& live, const LeverRow& row) const {
   Bar bar;
-  bar.moved = live.decided && live.compiled->moves(row.lever);
+  bar.moved = live.decided && live.compiled->moves(row.lever) && lacksText(live.ig, row.key).isEmpty();
   bar.why = whyText(live, row.lever);
   const double value = bar.moved ? live.outcome[row.lever] : kNan;
   bar.value = bar.moved ? shownPlace(row, value) : -1;
   bar.target = bar.moved ? shownPlace(row, live.decision.target[row.lever]) : kNan;
+  bar.own = ownRangeText(live.ig, row.key);
   bar.text = bar.moved ? leverText(row.lever, value) : QStringLiteral("–");
   return bar;
 }
@@ -166,11 +169,12 @@ bool LeversView::event(QEvent* event) {
   QToolTip::showText(
       help.globalPos(),
       tr("<p><b>%1</b>: %2.</p><p>It is %3.</p><p>Hard limits %4 to %5, usually %6 to %7 (shaded). Neutral "
-         "(dotted): %8. %9</p>")
+         "(dotted): %8. %9</p><p>%10</p>")
           .arg(fromView(row.label), fromView(row.means), bars_[static_cast<std::size_t>(at)].why,
                leverText(row.lever, row.hard.low), leverText(row.lever, row.hard.high),
                numberText(row.usual.low, 2), leverText(row.lever, row.usual.high),
-               std::isfinite(row.neutral) ? leverText(row.lever, row.neutral) : tr("the preset's own"), cost),
+               std::isfinite(row.neutral) ? leverText(row.lever, row.neutral) : tr("the preset's own"), cost,
+               bars_[static_cast<std::size_t>(at)].own.toHtmlEscaped()),
       this);
   return true;
 }

@@ -30,9 +30,10 @@ class LeversView : public QWidget {
     bool moved = false;
     double value = 0, target = 0;  ///< rounded to what a bar can show; NaN: none
     QString text, why;
+    QString own;  ///< how the image generator knows the lever
     friend bool operator==(const Bar& a, const Bar& b) {
-      return a.moved == b.moved && a.text == b.text && a.why == b.why && a.value == b.value &&
-             (a.target == b.target || (a.target != a.target && b.target != b.target));
+      return a.moved == b.moved && a.text == b.text && a.why == b.why && a.own == b.own &&
+             a.value == b.value && (a.target == b.target || (a.target != a.target && b.target != b.target));
     }
   };
   Bar barOf(const PolicyLive& live, const LeverRow& row) const;

@@ -19,6 +19,7 @@ struct PolicyLive {
   PolicyDecision decision;
   Policy policy;                             ///< as an engineer writes it
   const CompiledPolicy* compiled = nullptr;  ///< while the draft's active parameters stay
+  const IgProfile* ig = nullptr;             ///< as Draft::imageGenerator()
 
   /// Returns the share of a rule in a lever, 0..1.
   double share(std::size_t rule, Lever lever) const {

@@ -101,6 +101,7 @@ PolicyPanel::PolicyPanel(Draft& draft, QWidget* parent)
     readActive();
     if (any_) throttle_.request();
   });
+  connect(&draft_, &Draft::imageGeneratorChanged, this, [this] { refresh(); });
   connect(&draft_, &Draft::loaded, this, [this] { track_.clear(); });
   readActive();
   choose();
@@ -314,6 +315,7 @@ void PolicyPanel::readActive() {
 
 void PolicyPanel::refresh() {
   live_.compiled = draft_.active().policy();
+  live_.ig = draft_.imageGenerator();
   live_.seen = any_;
   if (any_) live_.flight = frame_.input.signalValues;
   live_.decided = any_ && live_.compiled != nullptr;

@@ -2,15 +2,24 @@
 #include "policy_rules_model.h"
 
 #include <QMimeData>
+#include <algorithm>
 #include <cmath>
 
 #include "bar_cell.h"
 #include "trimtab/units/not_finite.h"
 #include "trimtab/units/number.h"
+#include "views/model/ig_words.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
 namespace {
+
+/// Reports whether a rule sets a lever that the image generator does not have.
+bool setsWhatIsLacking(const PolicyRule& rule, const IgProfile* ig) {
+  return std::ranges::any_of(rule.settings, [ig](const LeverSetting& setting) {
+    return !lacksText(ig, rowOf(setting.lever).key).isEmpty();
+  });
+}
 
 const QString kMime = QStringLiteral("application/x-trimtab-policy-rule");
 
@@ -28,6 +37,11 @@ PolicyRulesModel::PolicyRulesModel(PolicyDraft& policy, QObject* parent)
     : RowsModel(parent), policy_(policy) {
   refresh();
   connect(&policy_, &PolicyDraft::rulesChanged, this, &PolicyRulesModel::refresh);
+  connect(&policy_.draft(), &Draft::imageGeneratorChanged, this, [this] {
+    if (rowCount() > 0)
+      emit dataChanged(index(0, 0), index(rowCount() - 1, kColumns - 1),
+                       {Qt::ForegroundRole, Qt::ToolTipRole});
+  });
   // A term that is gone breaks rules.
   connect(&policy_.draft(), &Draft::findingsChanged, this, [this] {
     const std::vector<bool> before = broken_;
@@ -94,14 +108,22 @@ QVariant PolicyRulesModel::data(const QModelIndex& index, int role) const {
       return {};
     case Qt::ForegroundRole:
       if (!line.rule || broken_[row]) return errorColour(QPalette());
+      if (column == kSettings && setsWhatIsLacking(*line.rule, policy_.draft().imageGenerator()))
+        return quietColour(QPalette());
       return on ? QVariant() : QVariant(quietColour(QPalette()));
     case Qt::ToolTipRole: {
       if (!line.rule) return tr("This line cannot be read; type the whole rule: if … then …");
       if (broken_[row]) return sentences(policy_.check(*line.rule));
       QStringList units;
-      for (const LeverSetting& setting : line.rule->settings)
-        units << QStringLiteral("%1: %2").arg(fromView(rowOf(setting.lever).label),
-                                              leverText(setting.lever, setting.value));
+      for (const LeverSetting& setting : line.rule->settings) {
+        const LeverRow& lever = rowOf(setting.lever);
+        QString unit =
+            QStringLiteral("%1: %2").arg(fromView(lever.label), leverText(setting.lever, setting.value));
+        const IgProfile* const ig = policy_.draft().imageGenerator();
+        for (const QString& more : {lacksText(ig, lever.key), ownRangeText(ig, lever.key)})
+          if (!more.isEmpty()) unit += QStringLiteral(" (%1)").arg(more.toHtmlEscaped());
+        units << unit;
+      }
       return tr("<p>if %1</p><p>%2</p><p>%3</p>")
           .arg(QString::fromStdString(line.rule->condition).toHtmlEscaped(),
                units.join(QStringLiteral("<br>")), QString::fromStdString(line.rule->reason).toHtmlEscaped());

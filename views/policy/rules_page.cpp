@@ -9,12 +9,14 @@
 #include <QScrollBar>
 #include <QToolButton>
 #include <algorithm>
+#include <cmath>
 
 #include "bar_cell.h"
 #include "kept_text_cell.h"
 #include "policy_rules_model.h"
 #include "views/controls/list_table.h"
 #include "views/controls/note_line.h"
+#include "views/model/ig_words.h"
 #include "views/model/keys.h"
 #include "views/model/theme.h"
 
@@ -25,8 +27,9 @@ namespace {
 QList<KeptTextCell::Word> wordsAfter(const QString& before, bool settings, const PolicyDraft& policy) {
   QList<KeptTextCell::Word> words;
   if (settings || before.contains(QStringLiteral(" then "))) {
+    const IgProfile* const ig = policy.draft().imageGenerator();
     for (const LeverRow& row : kLeverRows)
-      words << KeptTextCell::Word{fromView(row.key), fromView(row.label)};
+      words << KeptTextCell::Word{fromView(row.key), fromView(row.label), lacksText(ig, row.key)};
     return words;
   }
   static const QRegularExpression kIs(
@@ -38,9 +41,9 @@ QList<KeptTextCell::Word> wordsAfter(const QString& before, bool settings, const
     return words;
   }
   for (const std::size_t line : policy.termsOf(*signal))
-    words << KeptTextCell::Word{QString::fromStdString(policy.terms()[line].term->name), QString()};
+    words << KeptTextCell::Word{QString::fromStdString(policy.terms()[line].term->name)};
   for (const char* word : {"any", "not", "very", "somewhat", "extremely", "seldom"})
-    words << KeptTextCell::Word{QString::fromLatin1(word), QString()};
+    words << KeptTextCell::Word{QString::fromLatin1(word)};
   return words;
 }
 
@@ -228,6 +231,13 @@ PolicyRule RulesPage::newRule() const {
   if (!terms.empty()) term = policy_.terms()[terms.front()].term->name;
   rule.condition = std::string(rowOf(signal).key) + " is " + term;
   rule.settings = {{Lever::screen_space_error, 4}};
+  const auto has = [this](const LeverRow& row) {
+    return lacksText(policy_.draft().imageGenerator(), row.key).isEmpty();
+  };
+  // For an image generator without one, it sets a lever that is there, to what changes nothing yet.
+  if (!has(rowOf(Lever::screen_space_error)))
+    if (const auto row = std::ranges::find_if(kLeverRows, has); row != kLeverRows.end())
+      rule.settings = {{row->lever, std::isfinite(row->neutral) ? row->neutral : row->usual.high}};
   return rule;
 }
 

@@ -7,6 +7,7 @@
 
 #include "bar_cell.h"
 #include "trimtab/units/not_finite.h"
+#include "views/model/ig_words.h"
 #include "views/model/theme.h"
 
 namespace trimtab::views {
@@ -43,6 +44,12 @@ void SharesModel::rebuild(const PolicyLive& live) {
 
 void SharesModel::showLive(const PolicyLive& live) {
   if (live.policy != policy_) rebuild(live);
+  QStringList lacks;
+  for (const Lever lever : levers_) lacks << lacksText(live.ig, rowOf(lever).key);
+  if (lacks != lacks_) {
+    lacks_ = lacks;
+    emit headerDataChanged(Qt::Horizontal, kFirstLever, columnCount() - 1);
+  }
   for (std::size_t r = 0; r < rows_.size(); ++r)
     for (std::size_t c = 0; c <= levers_.size(); ++c) {
       double now = kNan;
@@ -101,9 +108,12 @@ QVariant SharesModel::headerData(int section, Qt::Orientation orientation, int r
     return fromView(rowOf(levers_[static_cast<std::size_t>(lever)]).key)
         .replace(QLatin1Char('_'), QLatin1Char('\n'));
   }
+  const QString lacks = lever >= 0 ? lacks_.value(lever) : QString();
+  if (role == Qt::ForegroundRole && !lacks.isEmpty()) return quietColour(QPalette());
   if (role == Qt::ToolTipRole && lever >= 0)
     return tr("Share of each rule in %1")
-        .arg(fromView(rowOf(levers_[static_cast<std::size_t>(lever)]).label));
+               .arg(fromView(rowOf(levers_[static_cast<std::size_t>(lever)]).label)) +
+           (lacks.isEmpty() ? QString() : QStringLiteral(". ") + lacks);
   return {};
 }
 

@@ -36,6 +36,7 @@ class SharesModel : public QAbstractTableModel {
 
   Policy policy_;
   std::vector<Lever> levers_;
+  QStringList lacks_;  ///< why the image generator does not follow a lever of `levers_`; empty if it does
   std::vector<Row> rows_;
 };
 

@@ -9,6 +9,7 @@
 #include "flight_controller.h"
 #include "frame_controller.h"
 #include "head_controller.h"
+#include "ig_controller.h"
 #include "observer_controller.h"
 #include "run_inputs.h"
 #include "symbology_controller.h"
@@ -21,6 +22,7 @@ namespace trimtab::workbench {
 /// All controllers of a window. Each uses only those above it; what goes the other way goes by signals.
 struct Controllers {
   std::unique_ptr<DocumentController> document;
+  std::unique_ptr<IgController> ig;
   std::unique_ptr<TerrainController> terrain;
   std::unique_ptr<ObserverController> observer;
   std::unique_ptr<FrameController> frame;

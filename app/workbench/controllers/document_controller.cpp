@@ -9,10 +9,12 @@
 #include "app/workbench/dialogs/notice_bar.h"
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/viewport/viewport.h"
+#include "ig_controller.h"
 #include "recent_files.h"
 #include "trimtab/frame/frame_result.h"
 #include "trimtab/preset/file_io.h"
 #include "trimtab/preset/preset.h"
+#include "trimtab/rig/ig_profile.h"
 #include "views/model/draft.h"
 
 namespace trimtab::workbench {
@@ -127,16 +129,28 @@ bool DocumentController::exportTo(const QString& file, ExportFormat format, cons
   provenance.terrain = terrainName_.toStdString();
   const std::string note = machineNote(*at_.draft.active());
   provenance.comment = comment.toStdString() + (comment.isEmpty() || note.empty() ? "" : " ") + note;
+  const Result<ValidatedParameters> limited = limitedActive(at_.draft, document_.title().toStdString());
+  if (!limited) {
+    at_.messages.add(tr("Nothing is exported: the preset cannot be limited to the image generator"),
+                     limited.findings());
+    return false;
+  }
   const QString name =
       document_.file().isEmpty() ? document_.title() : QFileInfo(document_.file()).completeBaseName();
-  const std::string text = exportText(at_.draft.active(), name.toStdString(), provenance, format);
+  const std::string text = exportText(*limited, name.toStdString(), provenance, format);
   const QString absolute = QFileInfo(file).absoluteFilePath();
   const Result<Done> written = writeAtomically(absolute.toStdString(), text);
   if (!written) {
     at_.messages.add(tr("The export cannot be written: %1").arg(file), written.findings());
     return false;
   }
-  at_.messages.add(tr("Exported to %1").arg(absolute), written.findings());
+  Findings notes = written.findings();
+  notes.insert(notes.end(), limited.findings().begin(), limited.findings().end());
+  const IgProfile* const ig = at_.draft.imageGenerator();
+  at_.messages.add(ig == nullptr ? tr("Exported to %1").arg(absolute)
+                                 : tr("Exported to %1, limited to %2; the preset here stays as it is")
+                                       .arg(absolute, QString::fromStdString(ig->name)),
+                   notes);
   emit exported(absolute);
   return true;
 }

@@ -31,7 +31,9 @@ class DocumentController : public QObject {
   bool save();
   bool saveAs();
   /// Writes the active parameters for an image generator. Returns false while the draft breaks a rule, or if
-  /// the file cannot be written. What depends on the machine joins the comment.
+  /// the file cannot be written. What depends on the machine joins the comment. With the profile of an image
+  /// generator the export is limited to it, without a question: an export is for that image generator, and it
+  /// could not follow the rest. The preset stays as it is.
   bool exportTo(const QString& file, ExportFormat format, const QString& author, const QString& comment);
   /// The terrain that an export names as the one it was tuned over.
   void setTerrainName(const QString& name) { terrainName_ = name; }

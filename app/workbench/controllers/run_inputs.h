@@ -22,8 +22,11 @@ class RunInputs {
   /// Writes the active parameters, and the flight unless its own file still holds it, into the folder.
   /// Returns nothing if no terrain is open, or if writing fails, which is reported in the Messages dock.
   std::optional<ExperimentInputs> write(const QString& folder) const;
+  /// Does so with a preset that is limited to the image generator, for a fit, which needs no terrain.
+  std::optional<ExperimentInputs> writeForFit(const QString& folder) const;
 
  private:
+  std::optional<QString> writeFlight(const QString& folder) const;
   bool write(const QString& file, const std::string& text) const;
 
   Workplace at_;

@@ -143,6 +143,8 @@ Result<Done> writeSession(const QString& file, const SavedSession& session) {
   QJsonObject object{{kVersionKey, kVersion}, {"workspace", session.workspace}};
   object["terrain"] = relativeTo(folder, session.terrain);
   object["preset"] = relativeTo(folder, session.preset);
+  if (!session.imageGenerator.isEmpty())
+    object["image_generator"] = relativeTo(folder, session.imageGenerator);
   if (session.draft) object["draft"] = presetObject(*session.draft);
   if (!session.flight.isEmpty()) {
     object["flight"] = relativeTo(folder, session.flight);
@@ -187,6 +189,7 @@ Result<SavedSession> readSession(const QString& file) {
   SavedSession session;
   session.terrain = absoluteIn(folder, in.text("terrain"));
   session.preset = absoluteIn(folder, in.text("preset"));
+  session.imageGenerator = absoluteIn(folder, in.text("image_generator"));
   if (in.has("draft")) session.draft = in.preset("draft");
   session.flight = absoluteIn(folder, in.text("flight"));
   session.flightColumns = in.columns("flight_columns");

@@ -36,6 +36,7 @@ struct SavedSnapshot {
 struct SavedSession {
   QString terrain;             ///< a file or folder; empty: the sample terrain
   QString preset;              ///< a file, or the name of a shipped preset; empty: it has none yet
+  QString imageGenerator;      ///< the file of its profile; empty: this program's own
   QString flight;              ///< a file; empty: none
   QString flightColumns;       ///< the map of its columns, as `--columns` has it; empty: none
   double flightPositionS = 0;  ///< seconds from the flight's start

@@ -21,7 +21,7 @@ class ReportView;
 
 /// The files that an experiment runs over.
 struct ExperimentInputs {
-  QString terrain, flight, preset;  ///< the flight may be empty
+  QString terrain, flight, preset;  ///< the flight may be empty, as may be the terrain of a fit
 };
 
 /// Measures what each lever is worth along the open flight, and shows it as a table and plots. It runs as a

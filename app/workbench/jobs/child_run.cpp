@@ -5,7 +5,6 @@
 
 #include <QCoreApplication>
 #include <QRegularExpression>
-#include <QTimer>
 
 namespace trimtab::workbench {
 namespace {
@@ -17,12 +16,13 @@ constexpr int kStopMs = 3000;
 
 ChildRun::ChildRun(QObject* parent) : QObject(parent) {
   connect(&process_, &QProcess::readyReadStandardError, this, &ChildRun::onErrors);
-  connect(&process_, &QProcess::readyReadStandardOutput, this,
-          [this] { output_ += process_.readAllStandardOutput(); });
+  connect(&process_, &QProcess::readyReadStandardOutput, this, &ChildRun::onOutput);
   connect(&process_, &QProcess::stateChanged, this, [this](QProcess::ProcessState state) {
     if (state != QProcess::Running) emit runningChanged(running());
   });
   connect(&process_, &QProcess::finished, this, &ChildRun::onFinished);
+  patience_.setSingleShot(true);
+  connect(&patience_, &QTimer::timeout, &process_, &QProcess::kill);
   connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
     if (error != QProcess::FailedToStart) return;
     emit ended({false,
@@ -31,7 +31,7 @@ ChildRun::ChildRun(QObject* parent) : QObject(parent) {
                 {{Severity::error,
                   process_.program().toStdString(),
                   {},
-                  "the program trimtab-cli beside this one",
+                  other_ ? "a program of this name" : "the program trimtab-cli beside this one",
                   process_.errorString().toStdString()}}});
   });
 }
@@ -45,26 +45,53 @@ ChildRun::~ChildRun() {
 
 void ChildRun::start(const QStringList& arguments) {
   if (running()) return;
+  other_ = false;
+  begin(QCoreApplication::applicationDirPath() + QStringLiteral("/trimtab-cli"), arguments,
+        QProcessEnvironment(QProcessEnvironment::InheritFromParent));
+}
+
+void ChildRun::start(const QString& program, const QStringList& arguments,
+                     const std::vector<std::pair<QString, QString>>& variables) {
+  if (running()) return;
+  other_ = true;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  for (const auto& [variable, value] : variables) environment.insert(variable, value);
+  begin(program, arguments, environment);
+}
+
+void ChildRun::begin(const QString& program, const QStringList& arguments,
+                     const QProcessEnvironment& environment) {
   output_.clear();
   errors_.clear();
   cancelled_ = false;
-  process_.start(QCoreApplication::applicationDirPath() + QStringLiteral("/trimtab-cli"), arguments);
+  process_.setProcessEnvironment(environment);
+  process_.start(program, arguments);
 }
 
 void ChildRun::cancel() {
   if (!running()) return;
   cancelled_ = true;
   // 0 would be this program and all it started.
-  if (const auto id = static_cast<pid_t>(process_.processId()); id > 0) ::kill(id, SIGINT);
-  QTimer::singleShot(kStopMs, &process_, [this] {
-    if (cancelled_ && running()) process_.kill();
-  });
+  if (const auto id = static_cast<pid_t>(process_.processId()); id > 0) ::kill(id, other_ ? SIGTERM : SIGINT);
+  patience_.start(kStopMs);
+}
+
+void ChildRun::onOutput() {
+  const QByteArray text = process_.readAllStandardOutput();
+  output_ += text;
+  if (!text.isEmpty()) emit said(QString::fromLocal8Bit(text));
+}
+
+QString ChildRun::name() const {
+  return other_ ? process_.program() : QStringLiteral("trimtab-cli ") + process_.arguments().value(0);
 }
 
 /// Progress lines are " 12 % what"; anything else is a finding.
 void ChildRun::onErrors() {
   static const QRegularExpression kProgress(QStringLiteral("^\\s*(\\d+) % (.*)$"));
-  errors_ += process_.readAllStandardError();
+  const QByteArray text = process_.readAllStandardError();
+  errors_ += text;
+  if (!text.isEmpty()) emit said(QString::fromLocal8Bit(text));
   for (qsizetype end = errors_.indexOf('\n'), from = 0; end >= 0; end = errors_.indexOf('\n', from)) {
     const QRegularExpressionMatch line =
         kProgress.match(QString::fromUtf8(errors_.constData() + from, end - from));
@@ -78,16 +105,23 @@ void ChildRun::onErrors() {
 }
 
 void ChildRun::onFinished(int exitCode, QProcess::ExitStatus status) {
+  patience_.stop();
   onErrors();
-  output_ += process_.readAllStandardOutput();
+  onOutput();
   Ended how{cancelled_, !cancelled_ && status == QProcess::NormalExit && exitCode == 0, output_, {}};
   if (!how.good && !how.cancelled) {
-    const QByteArray said = errors_.trimmed();
+    // The findings of trimtab-cli say it all; of another program, nobody knows which lines matter.
+    const std::string code = status == QProcess::CrashExit ? "the end by signal " + std::to_string(exitCode)
+                                                           : "exit code " + std::to_string(exitCode);
+    const QByteArray text = (other_ && errors_.trimmed().isEmpty() ? output_ : errors_).trimmed();
+    const std::string last = (other_ ? text.mid(text.lastIndexOf('\n') + 1) : text).toStdString();
     how.findings.push_back({Severity::error,
-                            "trimtab-cli " + process_.arguments().value(0).toStdString(),
+                            name().toStdString(),
                             {},
                             "to end well",
-                            said.isEmpty() ? "exit code " + std::to_string(exitCode) : said.toStdString()});
+                            last.empty() ? code
+                            : other_     ? code + ": " + last
+                                         : last});
   }
   emit ended(how);
 }

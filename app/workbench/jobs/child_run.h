@@ -4,13 +4,16 @@
 #include <QObject>
 #include <QProcess>
 #include <QStringList>
+#include <QTimer>
+#include <utility>
+#include <vector>
 
 #include "trimtab/units/result.h"
 
 namespace trimtab::workbench {
 
-/// Runs `trimtab-cli` as a program of its own for long work, so that the window responds and cancelling
-/// always works.
+/// Runs `trimtab-cli`, or another program, for long work, so that the window responds and cancelling always
+/// works.
 class ChildRun : public QObject {
   Q_OBJECT
 
@@ -26,21 +29,32 @@ class ChildRun : public QObject {
 
   /// Does nothing while a run is under way.
   void start(const QStringList& arguments);
+  /// Starts another program with these variables added to the environment.
+  void start(const QString& program, const QStringList& arguments,
+             const std::vector<std::pair<QString, QString>>& variables);
+  /// Asks the program to end (`trimtab-cli` by SIGINT, another one by SIGTERM), and kills it three seconds
+  /// later.
   void cancel();
+  /// Returns what is run, for people.
+  QString name() const;
   bool running() const { return process_.state() != QProcess::NotRunning; }
 
  signals:
   void runningChanged(bool running);
   void progressed(int percent, const QString& what);
+  void said(const QString& text);  ///< what the program has just written, to either output
   void ended(const trimtab::workbench::ChildRun::Ended& how);
 
  private:
+  void begin(const QString& program, const QStringList& arguments, const QProcessEnvironment& environment);
+  void onOutput();
   void onErrors();
   void onFinished(int exitCode, QProcess::ExitStatus status);
 
   QProcess process_;
+  QTimer patience_;  ///< of the cancelled run, with a program that does not end
   QByteArray output_, errors_;
-  bool cancelled_ = false;
+  bool cancelled_ = false, other_ = false;
 };
 
 }  // namespace trimtab::workbench

@@ -26,9 +26,7 @@
 #include "app/workbench/docks/error_dock.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/docks/host_dock.h"
-#include "app/workbench/docks/leverage_page.h"
 #include "app/workbench/docks/message_panel.h"
-#include "app/workbench/docks/search_page.h"
 #include "app/workbench/viewport/split_view.h"
 #include "app/workbench/window/palette_entries.h"
 #include "appearance.h"
@@ -103,6 +101,7 @@ void MainWindow::makeControllers() {
   const Workplace at{draft_, feed_, *viewport_, pause_, *panels_.messages, *this};
   Controllers& c = controllers_;
   c.document = std::make_unique<DocumentController>(at, *notices_);
+  c.ig = std::make_unique<IgController>(at, c.document->document());
   c.terrain = std::make_unique<TerrainController>(at, *panels_.terrain, *panels_.staticLod);
   c.observer = std::make_unique<ObserverController>(at, *c.terrain);
   c.frame = std::make_unique<FrameController>(at, *c.terrain, *c.observer);
@@ -119,7 +118,7 @@ void MainWindow::makeControllers() {
   using enum DockLayout::Place;
   docks_.add("errors", tr("Run time against error"), foot, &c.errors->dock());
   docks_.join("errors", tr("Compare"), &c.errors->splitView());
-  addRunPages(docks_, panels_, *c.inputs, draft_);
+  addRunPages(docks_, panels_, c, draft_, pause_);
   docks_.setQuestion("errors", tr("What does a preset cost, and what error does it make?"));
   workspaces_ = new Workspaces(*this, docks_);
   sessions_ = new SessionKeeper(at, controllers_, *workspaces_, panels_.changes->snapshots());
@@ -205,8 +204,6 @@ void MainWindow::connectParts() {
 /// Whatever measures times has the machine for itself.
 void MainWindow::connectPause() {
   pause_.follow(controllers_.errors->dock().child(), &ChildRun::runningChanged, tr("presets are measured"));
-  pause_.follow(panels_.leverage->child(), &ChildRun::runningChanged, tr("leverage is measured"));
-  pause_.follow(panels_.search->child(), &ChildRun::runningChanged, tr("presets are searched"));
   // Comparing says so itself: it goes on and off all the time.
   pause_.follow(controllers_.errors->splitView(), &SplitView::busyChanged, {});
   connect(&pause_, &ViewPause::changed, this, &MainWindow::showPause);

@@ -133,7 +133,9 @@ void Menus::makeFileMenu() {
               {},
               [this] { panels_.policy->askAndExport(); },
               tr("Terms and rules that set the levers")},
-             {},
+             {}});
+  by_.ig->fillMenu(*file.addMenu(tr("Ima&ge generator")));
+  add(file, {{},
              {tr("Open &terrain..."), tr("Ctrl+T"), [&] { terrain.askOpenFile(); }, {}, &openTerrain},
              {tr("Open terrain &folder or database..."),
               tr("Ctrl+Shift+T"),

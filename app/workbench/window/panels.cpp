@@ -4,14 +4,16 @@
 #include <QDockWidget>
 #include <QObject>
 
-#include "app/workbench/controllers/run_inputs.h"
+#include "app/workbench/controllers/controllers.h"
 #include "app/workbench/docks/changes_dock.h"
 #include "app/workbench/docks/dock_of.h"
+#include "app/workbench/docks/fit_page.h"
 #include "app/workbench/docks/flight_dock.h"
 #include "app/workbench/docks/host_dock.h"
 #include "app/workbench/docks/leverage_page.h"
 #include "app/workbench/docks/message_panel.h"
 #include "app/workbench/docks/search_page.h"
+#include "app/workbench/jobs/view_pause.h"
 #include "dock_layout.h"
 #include "trimtab/preset/preset.h"
 #include "views/controls/parameter_table.h"
@@ -101,11 +103,26 @@ Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed) {
   return panels;
 }
 
-void addRunPages(DockLayout& docks, Panels& panels, const RunInputs& inputs, views::Draft& draft) {
+void addRunPages(DockLayout& docks, Panels& panels, const Controllers& by, views::Draft& draft,
+                 ViewPause& pause) {
+  const RunInputs& inputs = *by.inputs;
   const auto source = [&inputs](const QString& folder) { return inputs.write(folder); };
   panels.leverage = docks.join("policy", QObject::tr("Leverage"), new LeveragePage(source));
   panels.search = docks.join("errors", QObject::tr("Find"), new SearchPage(source));
+  panels.fit =
+      docks.join("errors", QObject::tr("Fit"),
+                 new FitPage(draft, [&inputs](const QString& folder) { return inputs.writeForFit(folder); }));
   MessagePanel* const messages = panels.messages;
+  pause.follow(panels.leverage->child(), &ChildRun::runningChanged, QObject::tr("leverage is measured"));
+  pause.follow(panels.search->child(), &ChildRun::runningChanged, QObject::tr("presets are searched"));
+  pause.follow(panels.fit->child(), &ChildRun::runningChanged, QObject::tr("an image generator is fitted"));
+  QObject::connect(panels.fit, &FitPage::refused, messages, &MessagePanel::add);
+  QObject::connect(panels.fit, &FitPage::chosen, by.ig.get(), &IgController::take);
+  QObject::connect(panels.fit, &FitPage::profileAsked, by.ig.get(), &IgController::askOpen);
+  QObject::connect(by.ig.get(), &IgController::fitAsked, panels.fit, [fit = panels.fit] {
+    raiseDock(*fit);
+    fit->begin();
+  });
   QObject::connect(panels.leverage, &LeveragePage::refused, messages, &MessagePanel::add);
   QObject::connect(panels.search, &SearchPage::refused, messages, &MessagePanel::add);
   QObject::connect(panels.search, &SearchPage::chosen, messages,

@@ -21,12 +21,14 @@ namespace trimtab::workbench {
 class ChangesDock;
 class DockLayout;
 class Feed;
+class FitPage;
 class FlightDock;
 class HostDock;
 class LeveragePage;
 class MessagePanel;
-class RunInputs;
 class SearchPage;
+class ViewPause;
+struct Controllers;
 
 /// The contents of those docks that the window and its controllers use. The docks own them.
 struct Panels {
@@ -48,11 +50,15 @@ struct Panels {
   // Made once there are controllers, which they need.
   LeveragePage* leverage = nullptr;
   SearchPage* search = nullptr;
+  FitPage* fit = nullptr;
 };
 
-/// Makes every dock but Run time against error and every page but Leverage and Find, which need controllers.
+/// Makes every dock but Run time against error and every page but Leverage, Find and Fit, which need
+/// controllers.
 Panels makePanels(DockLayout& docks, views::Draft& draft, Feed& feed);
-/// Adds the two pages that run programs over what the window shows, once their docks are there.
-void addRunPages(DockLayout& docks, Panels& panels, const RunInputs& inputs, views::Draft& draft);
+/// Adds the three pages that run programs over what the window shows, once their docks are there. The view
+/// pauses meanwhile.
+void addRunPages(DockLayout& docks, Panels& panels, const Controllers& by, views::Draft& draft,
+                 ViewPause& pause);
 
 }  // namespace trimtab::workbench

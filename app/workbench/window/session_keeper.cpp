@@ -65,6 +65,7 @@ SavedSession SessionKeeper::current() const {
   if (session.preset.isEmpty() || at_.draft.isDirty())
     if (const Result<std::string> edits = document.editsText())
       session.draft = QString::fromStdString(*edits);
+  session.imageGenerator = at_.draft.imageGeneratorFile();
   session.flight = by_.flight->flightDock().file();
   session.flightColumns = QString::fromStdString(columnMapText(by_.flight->flightDock().columns()));
   if (!session.flight.isEmpty()) session.flightPositionS = by_.flight->flightDock().position();
@@ -102,6 +103,10 @@ bool SessionKeeper::open(const QString& file) {
     by_.document->openEdits(session.preset, *session.draft, file);
   else if (!session.preset.isEmpty())
     by_.document->open(session.preset);
+  if (session.imageGenerator.isEmpty())
+    by_.ig->takeAway();
+  else
+    by_.ig->open(session.imageGenerator);
   if (const int index = int(workspaces_.names().indexOf(session.workspace)); index >= 0)
     workspaces_.show(index);
   by_.flight->flightDock().close();

@@ -7,13 +7,14 @@
 
 #include "app/link/link.h"
 #include "app/workbench/jobs/feed.h"
+#include "trimtab/rig/ig_profile.h"
 #include "views/model/draft.h"
 #include "views/model/theme.h"
 
 namespace trimtab::workbench {
 namespace {
 
-constexpr int kAgesMs = 500;
+constexpr int kAgesMs = 500, kNameLetters = 16;
 
 }  // namespace
 
@@ -30,6 +31,9 @@ StatusStrip::StatusStrip(const Feed& feed, const views::Draft& draft, QWidget* p
   views::setInk(*recording_, views::Ink::error);
   source_ = addPlace(tr("Who moves the aircraft"), tr("host on port 88888 is SILENT, 888.8 s ago"),
                      tr("Who moves the aircraft, and when a host was heard last"));
+  ig_ = addPlace(tr("Image generator"), {}, {});
+  connect(&draft_, &views::Draft::imageGeneratorChanged, this, &StatusStrip::showImageGenerator);
+  showImageGenerator();
   source_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
   ages_.setInterval(kAgesMs);
   connect(&ages_, &QTimer::timeout, this, &StatusStrip::showAge);
@@ -53,6 +57,19 @@ void StatusStrip::showFrame(const views::LiveFrame& frame) {
   budget_->setText((over ? tr("over: %1 of %2 ms") : tr("%1 of %2 ms"))
                        .arg(views::numberText(frame.cost.total, 1), views::numberText(ms, 1)));
   views::setInk(*budget_, over ? views::Ink::error : views::Ink::plain);
+}
+
+/// It has no place while there is none, which is how most people work.
+void StatusStrip::showImageGenerator() {
+  const IgProfile* const ig = draft_.imageGenerator();
+  ig_->setVisible(ig != nullptr);
+  if (ig == nullptr) return;
+  const QString name = QString::fromStdString(ig->name);
+  const int width = ig_->fontMetrics().averageCharWidth() * kNameLetters;
+  ig_->setText(tr("for %1").arg(ig_->fontMetrics().elidedText(name, Qt::ElideRight, width)));
+  ig_->setToolTip(tr("The preset is tuned for the image generator %1: levers that it does not have are grey, "
+                     "and exports are limited to it (File > Image generator)\n%2")
+                      .arg(name, draft_.imageGeneratorFile()));
 }
 
 void StatusStrip::showWorkspace(const QString& name) {

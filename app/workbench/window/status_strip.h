@@ -18,7 +18,8 @@ class Feed;
 
 /// What has to be in sight all day, at the foot of the window: the workspace, the frame time against the
 /// budget, whether a trace is being recorded, and who moves the aircraft, with the age of a host's last
-/// packet. Each has a place of its own width, so that none moves another. Nothing runs while nothing changes.
+/// packet; and the image generator for which the preset is tuned. Each has a place of its own width, so that
+/// none moves another. Nothing runs while nothing changes.
 class StatusStrip : public QWidget {
   Q_OBJECT
 
@@ -35,10 +36,11 @@ class StatusStrip : public QWidget {
  private:
   QLabel* addPlace(const QString& name, const QString& widest, const QString& toolTip);
   void showAge();
+  void showImageGenerator();
 
   const Feed& feed_;
   const views::Draft& draft_;
-  QLabel *workspace_, *budget_, *recording_, *source_;
+  QLabel *workspace_, *budget_, *recording_, *source_, *ig_;
   QString sourceText_;
   QTimer ages_;  ///< runs only while a link for a host is open
 };
