@@ -97,6 +97,19 @@ class WorkbenchRig : public PolicyDock {
   }
   QString output() { return page().findChild<QPlainTextEdit*>(QStringLiteral("output"))->toPlainText(); }
 
+  /// Saves a screenshot of the window to look at, as large as the smallest screen, if TRIMTAB_SHOTS names a
+  /// folder.
+  void keepShot(const QString& name) {
+    const QString folder = qEnvironmentVariable("TRIMTAB_SHOTS");
+    if (folder.isEmpty()) return;
+    for (const QSize size : {QSize(900, 700), QSize(1400, 900)}) {
+      w().resize(size);
+      QTest::qWait(1000);
+      EXPECT_EQ(w().size(), size);
+      onDisplay(w()).save(QStringLiteral("%1/%2-%3.png").arg(folder, name).arg(size.width()));
+    }
+  }
+
   ScratchDir dir_;
 };
 
@@ -139,6 +152,9 @@ TEST_F(WorkbenchRig, greysWhatTheImageGeneratorLacksWhereverLeversAreListed) {
   EXPECT_FALSE(items.item(int(Lever::render_scale))->isEnabled());
   EXPECT_TRUE(items.item(int(Lever::lod_scale))->isEnabled());
 
+  parts().tabs->setCurrentIndex(2);
+  workbench::raiseDock(*w().dock(QStringLiteral("decision")));
+  keepShot("levers");
   trigger("None: this program's own");
   EXPECT_FALSE(settings.data(Qt::ForegroundRole).isValid());
   EXPECT_TRUE(items.item(int(Lever::render_scale))->isEnabled());
@@ -266,8 +282,7 @@ TEST_F(WorkbenchRig, fitsThePresetToAnImageGeneratorThatItRuns) {
   EXPECT_EQ(table.item(0, 3)->text(), "0.38 to 0.43");
   EXPECT_EQ(table.item(1, 0)->text(), "zFar 20 km");
   const int steps = w().draft().undoStack().count();
-  if (const QString folder = qEnvironmentVariable("TRIMTAB_SHOTS"); !folder.isEmpty())
-    onDisplay(w()).save(folder + "/fit.png");
+  keepShot("fit");
   QTest::mouseClick(&button("Use fitted"), Qt::LeftButton);
   EXPECT_EQ(w().draft().undoStack().count(), steps + 1);
   EXPECT_EQ(w().draft().parameters().policy.terms.line.front(), "triangles many = ramp 4000 18000");

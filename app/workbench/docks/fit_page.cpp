@@ -91,6 +91,7 @@ QWidget* FitPage::makeContent() {
   output_->setAccessibleName(tr("Output of the image generator"));
   output_->setPlaceholderText(tr("What the image generator writes"));
   output_->setFixedHeight(5 * fontMetrics().lineSpacing());
+  report_->setMinimumHeight(10 * fontMetrics().lineSpacing());
   auto* form = new QFormLayout;
   const auto addRow = [&](const QString& text, QWidget* buddy, QWidget* left, QWidget* right) {
     auto* row = new QHBoxLayout;
