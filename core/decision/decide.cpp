@@ -144,16 +144,16 @@ FrameDecision decide(const FrameInput& input, const WeatherDecision& weather,
   return decision;
 }
 
-void followPolicy(double timeS, SignalValues signals, const ValidatedParameters& parameters,
+void followPolicy(double timeS, SignalValues flight, const ValidatedParameters& parameters,
                   DecisionMemory& memory, FrameDecision& decision) {
   const CompiledPolicy& policy = *parameters.policy();
   thread_local PolicyDecision fired;  // kept, so that a decision allocates nothing
   const bool known =
       decision.reason != SchemeReason::invalid_input && decision.reason != SchemeReason::altitude_unknown;
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  signals[Signal::altitude_membership] = known ? decision.altitudeMembership : kUnknown;
-  signals[Signal::pitch_membership] = known ? decision.pitchMembership : kUnknown;
-  policy.decide(signals, fired);
+  flight[Signal::altitude_membership] = known ? decision.altitudeMembership : kUnknown;
+  flight[Signal::pitch_membership] = known ? decision.pitchMembership : kUnknown;
+  policy.decide(flight, fired);
   LeverValues neutral;
   for (const LeverRow& row : kLeverRows) neutral[row.lever] = row.neutral;
   // What the occlusion rests at where no rule sets it.

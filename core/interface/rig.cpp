@@ -181,7 +181,9 @@ trimtab_status trimtab_session_fit_picture(trimtab_session* session, const void*
 trimtab_status trimtab_session_fit_finish(trimtab_session* session, trimtab_findings** findings) {
   if (session == nullptr || !session->fitting) return TRIMTAB_MISUSE;
   return c::guarded([&] {
-    const Findings all = c::write(*session->fitting);
+    Findings all = c::write(*session->fitting);
+    if (const Result<IgFit> fit = session->fitting->flight.result(); fit && !hasError(all))
+      all = checkViews(*fit, session->fitting->file).findings();
     session->fitting.reset();
     session->decided();
     c::give(findings, all);

@@ -165,11 +165,8 @@ Result<IgFit> FitFlight::result() const {
     return Finding{Severity::error, "fit of " + profile_.name, std::move(key), std::move(expected),
                    std::move(found)};
   };
-  if (views() < kFewestFitViews)
-    return refused("views",
-                   "at least " + std::to_string(kFewestFitViews) + ", of " + std::to_string(imagesPerView()) +
-                       " images each: fly a longer flight",
-                   std::to_string(views()));
+  if (views() == 0)
+    return refused("views", "at least one, of " + std::to_string(imagesPerView()) + " images", "none");
   if (std::ranges::none_of(neutral_.ms, [](double ms) { return ms > 0; }))
     return refused("total_ms", "times of images", "none");
   if (std::ranges::none_of(neutral_.load, [](double load) { return load > 0; }))
@@ -178,7 +175,10 @@ Result<IgFit> FitFlight::result() const {
   fit.ig = profile_.name;
   fit.views = views();
   fit.timeMs = median(neutral_.ms);
-  fit.loadLow = quantileOf(neutral_.load, 0.05), fit.loadHigh = quantileOf(neutral_.load, 0.95);
+  const auto [least, most] = std::ranges::minmax(neutral_.load);
+  const bool enough = isEnoughFor(0.95, views());
+  fit.loadLow = enough ? quantileOf(neutral_.load, 0.05) : least;
+  fit.loadHigh = enough ? quantileOf(neutral_.load, 0.95) : most;
   for (const Setting& s : settings_) {
     LeverPoint point{s.lever->row, s.value, pairedRatio(neutral_.ms, s.ms),
                      pairedRatio(neutral_.load, s.load)};

@@ -154,6 +154,7 @@ Result<TuningParameters> fittedTo(const IgProfile& profile, const IgFit& fit, Tu
   if (fit.ig != profile.name)
     return Finding{Severity::error, where, "ig", "a fit of \"" + profile.name + '"',
                    "one of \"" + fit.ig + '"'};
+  if (const auto views = checkViews(fit, where); !views) return views.findings();
   Fitter fitter(profile, fit, preset, where);
   fitter.run();
   Result<TuningParameters> limited = limitedTo(profile, std::move(preset), where);

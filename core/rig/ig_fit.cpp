@@ -181,6 +181,13 @@ Result<IgFit> loadIgFit(const std::filesystem::path& file) {
   return parseIgFit(*text, file.string());
 }
 
+Result<Done> checkViews(const IgFit& fit, const std::string& where) {
+  if (fit.views >= kFewestFitViews) return Done{};
+  return Finding{Severity::error, where, "views",
+                 "at least " + std::to_string(kFewestFitViews) + " views: fly a longer flight",
+                 std::to_string(fit.views)};
+}
+
 std::string report(const IgFit& fit, const IgProfile& profile) {
   const auto interval = [](const PairedRatio& r) {
     return numberText(r.median, 3) + " (" + numberText(r.low, 3) + " to " + numberText(r.high, 3) + ')';

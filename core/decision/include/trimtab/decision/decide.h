@@ -29,9 +29,9 @@ FrameDecision decide(const FrameInput& input, const WeatherDecision& weather,
                      const ValidatedParameters& parameters, DecisionMemory& memory);
 
 /// Lets the preset's policy, which it must have, move the levers of a decision, at the time of its state. It
-/// is the last step of decide(); the others do not depend on rules. `signals` need no memberships: the
+/// is the last step of decide(); the others do not depend on rules. `flight` needs no memberships: the
 /// decision has them.
-void followPolicy(double timeS, SignalValues signals, const ValidatedParameters& parameters,
+void followPolicy(double timeS, SignalValues flight, const ValidatedParameters& parameters,
                   DecisionMemory& memory, FrameDecision& decision);
 
 /// Returns the chain of the levers up to the policy (frame_levers.h); `drawn` is as the policy leaves them.

@@ -33,8 +33,8 @@ class FitFlight {
   std::size_t views() const { return neutral_.ms.size(); }
   /// Returns how many images one view takes.
   std::size_t imagesPerView() const;
-  /// Returns what the complete views say. Refuses fewer than kFewestFitViews, and a flight whose load or time
-  /// nobody reported.
+  /// Returns what the complete views say. Refuses a flight without one, and one whose load or time nobody
+  /// reported.
   Result<IgFit> result() const;
 
  private:

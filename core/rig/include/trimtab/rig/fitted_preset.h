@@ -14,7 +14,8 @@ namespace trimtab {
 /// * where images were given, lod.screen_space_error_px is the error that the LOD scale's neutral value
 /// stands
 ///   for, so that rules in pixels mean pixels, and the budget's losses are those that were seen.
-/// Notes name each change, with `where` as their place. Refuses a fit of another image generator.
+/// Notes name each change, with `where` as their place. Refuses a fit of another image generator, and
+/// one from too few views.
 Result<TuningParameters> fittedTo(const IgProfile& profile, const IgFit& fit, TuningParameters preset,
                                   const std::string& where);
 

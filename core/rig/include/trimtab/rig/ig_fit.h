@@ -36,8 +36,10 @@ struct IgFit {
   CostModel::State cost;
 };
 
-/// A fit from fewer views would be no more than noise.
+/// A fit from fewer views has no percentiles, and a preset is not fitted to it (checkViews).
 inline constexpr std::size_t kFewestFitViews = 20;
+/// Refuses a fit from too few views; `where` names it.
+Result<Done> checkViews(const IgFit& fit, const std::string& where);
 
 /// Returns the fit as JSON; and the inverse, with findings that name line and key.
 std::string fitText(const IgFit& fit);
