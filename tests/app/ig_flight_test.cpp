@@ -47,13 +47,13 @@ const std::vector<std::string> kDecisionColumns = {"packet",
 class IgFlight : public ::testing::Test {
  protected:
   IgProcess fly(const std::filesystem::path& flight, const std::filesystem::path& trace,
-                std::vector<std::string> more = {}) const {
+                std::vector<std::string> more = {}, const char* size = "320x200") const {
     std::vector<std::string> arguments{"--preset",   (dir_ / "preset.json").string(),
                                        "--terrain",  test::smallTerrain().string(),
                                        "--flight",   flight.string(),
                                        "--trace",    trace.string(),
                                        "--headless", "--size",
-                                       "320x200",    "--json"};
+                                       size,         "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return IgProcess(arguments);
   }
@@ -111,7 +111,7 @@ std::optional<std::size_t> firstOtherwiseByC(const std::filesystem::path& preset
 TEST_F(IgFlight, decidesAsProgramsInCDo) {
   constexpr int kStates = 36000;
   write(*validate(*defaultParameters()), test::weavingFlight(kStates));
-  IgProcess ig = fly(dir_ / "flight.csv", dir_ / "trace.csv", {"--size", "16x16"});
+  IgProcess ig = fly(dir_ / "flight.csv", dir_ / "trace.csv", {}, "16x16");
   ASSERT_EQ(ig.end(), 0) << ig.err();
   const std::vector<TraceRow> rows = rowsOf(dir_ / "trace.csv");
   ASSERT_EQ(rows.size(), std::size_t{kStates});
