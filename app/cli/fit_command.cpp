@@ -2,7 +2,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -29,15 +29,15 @@ struct FitOptions {
   std::vector<std::string> command;
 };
 
-/// The image generator while it flies a fit, in an environment that asks libtrimtab for one.
+/// The image generator while it flies a fit, in an environment that asks libtrimtab for one. It is a group of
+/// processes, because a command may be a script that starts it.
 class Generator {
  public:
   /// Starts it; `error` is then 0.
   Generator(const std::vector<std::string>& command, const std::string& profile, const fs::path& fit) {
-    std::vector<std::string> settings{"TRIMTAB_PROFILE=" + fs::absolute(profile).string(),
-                                      "TRIMTAB_FIT=" + fs::absolute(fit).string()};
+    std::vector<std::string> words = command, settings{"TRIMTAB_PROFILE=" + fs::absolute(profile).string(),
+                                                       "TRIMTAB_FIT=" + fs::absolute(fit).string()};
     std::vector<char*> arguments, environment;
-    std::vector<std::string> words = command;
     for (std::string& word : words) arguments.push_back(word.data());
     for (std::string& setting : settings) environment.push_back(setting.data());
     for (char** each = environ; *each != nullptr; ++each)
@@ -45,33 +45,50 @@ class Generator {
         environment.push_back(*each);
     arguments.push_back(nullptr), environment.push_back(nullptr);
     posix_spawn_file_actions_t actions;  // what it prints is no result of ours
+    posix_spawnattr_t attributes;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-    error = posix_spawnp(&process_, arguments[0], &actions, nullptr, arguments.data(), environment.data());
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    error =
+        posix_spawnp(&process_, arguments[0], &actions, &attributes, arguments.data(), environment.data());
     posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+    ended_ = error != 0;
   }
+  ~Generator() { end(); }
+  Generator(const Generator&) = delete;
+  Generator& operator=(const Generator&) = delete;
+
   /// Reports whether it has ended; `status` is then as waitpid() gives it.
-  bool hasEnded() { return waitpid(process_, &status, WNOHANG) == process_; }
+  bool hasEnded() {
+    if (!ended_) ended_ = waitpid(process_, &status, WNOHANG) != 0;
+    return ended_;
+  }
+  /// Asks it to end, and ends it after three seconds.
   void end() {
-    ::kill(process_, SIGTERM);
-    for (int i = 0; i < 30; ++i, std::this_thread::sleep_for(100ms))
-      if (hasEnded()) return;
-    ::kill(process_, SIGKILL);
+    if (hasEnded()) return;
+    ::kill(-process_, SIGTERM);
+    for (int i = 0; i < 30 && !hasEnded(); ++i) std::this_thread::sleep_for(100ms);
+    if (hasEnded()) return;
+    ::kill(-process_, SIGKILL);
     waitpid(process_, &status, 0);
+    ended_ = true;
   }
   int error = 0, status = 0;
 
  private:
   pid_t process_ = -1;
+  bool ended_ = false;
 };
 
 /// Returns the command with the names of files in place of {preset} and {flight}.
 std::vector<std::string> filledIn(std::vector<std::string> command, const std::string& preset,
                                   const std::string& flight) {
   for (std::string& word : command)
-    for (const auto& [name, file] : {std::pair{"{preset}", preset}, std::pair{"{flight}", flight}})
-      for (std::size_t at; (at = word.find(name)) != std::string::npos;)
-        word.replace(at, std::strlen(name), file);
+    for (const auto& [name, file] : {std::pair{std::string_view("{preset}"), preset}, {"{flight}", flight}})
+      for (std::size_t at = 0; (at = word.find(name, at)) != std::string::npos; at += file.size())
+        word.replace(at, name.size(), file);
   return command;
 }
 
@@ -121,6 +138,11 @@ int run(const FitOptions& options) {
   const auto preset = loadPreset(options.preset);
   for (const Findings& findings : {may.findings(), profile.findings(), preset.findings()}) report(findings);
   if (!may || !profile || !preset) return kRefused;
+  const auto wantsFlight = [](const std::string& word) { return word.find("{flight}") != std::string::npos; };
+  if (options.flight.empty() && std::ranges::any_of(options.command, wantsFlight)) {
+    report({{Severity::error, "--flight", "", "the flight that stands in place of {flight}", "none"}});
+    return kRefused;
+  }
   if (!options.command.empty()) {
     const auto limited = limitedTo(*profile, preset->parameters, options.preset);
     if (!wroteExport(flown, *preset, *limited) ||

@@ -11,22 +11,26 @@ std::optional<TerrainForm> formOf(const FrameRequest& r, const LoadIndex& index)
   return formDrawn(r, {index.tiles != nullptr, index.patches != nullptr, index.trees != nullptr});
 }
 
-/// Returns the share of the load that is left where the error is 2^octaves times as large: from octave to
-/// octave by a constant factor, and beyond the shape what its ends are.
+/// Returns the share of the load that is left where the error is 2^octaves times that of neutral levers: from
+/// octave to octave by a constant factor, which goes on beyond either end.
 double shareAt(const LoadShape& shape, double octaves) {
-  const double at = std::clamp(octaves, 0.0, static_cast<double>(shape.size() - 1));
-  const std::size_t low = std::min(static_cast<std::size_t>(at), shape.size() - 2);
-  return shape[low] * std::pow(shape[low + 1] / shape[low], at - static_cast<double>(low));
+  const auto low = static_cast<std::size_t>(std::clamp(octaves, 0.0, static_cast<double>(shape.size() - 2)));
+  return shape[low] * std::pow(shape[low + 1] / shape[low], octaves - static_cast<double>(low));
 }
 
 /// Returns what an image may draw of a scene whose levels are not known, as one of OpenSceneGraph: the last
 /// image's triangles, and less by the shape where the allowed error is larger.
-TriangleLadder ladderFromLast(double triangles, double drawnPx, double askedPx, const LoadShape& shape) {
+TriangleLadder ladderFromLast(double triangles, double drawnPx, const LeverChain& levers,
+                              const LoadShape& shape) {
+  const double askedPx = levers.policy.errorPx;
+  // The shape begins at neutral levers, and the ladder at what is asked for.
+  const double asked = std::log2(askedPx * levers.policy.lodScale / levers.preset.errorPx);
   TriangleLadder ladder;
-  ladder[0] = triangles / shareAt(shape, std::log2(drawnPx / askedPx));
-  for (std::size_t k = 1; k < kErrorSteps; ++k)
-    ladder[k] = ladder[0] * shareAt(shape, (placesToNext(askedPx) + static_cast<double>(k - 1)) /
-                                               double{kPlacesPerOctave});
+  ladder[0] = triangles * shareAt(shape, asked) / shareAt(shape, asked + std::log2(drawnPx / askedPx));
+  for (std::size_t k = 1; k < kErrorSteps; ++k) {
+    const double octaves = (placesToNext(askedPx) + static_cast<double>(k - 1)) / double{kPlacesPerOctave};
+    ladder[k] = ladder[0] * shareAt(shape, asked + octaves) / shareAt(shape, asked);
+  }
   return ladder;
 }
 
@@ -78,7 +82,8 @@ TriangleLadder FrameHold::countGround(const FrameRequest& request, const LoadVie
   const std::optional<TerrainForm> form = formOf(request, *index_);
   const double askedPx = request.levers.policy.errorPx;
   if (!form)
-    return ladderFromLast(lastTriangles_, held_.errorPx > 0 ? held_.errorPx : askedPx, askedPx, shape_);
+    return ladderFromLast(lastTriangles_, held_.errorPx > 0 ? held_.errorPx : askedPx, request.levers,
+                          shape_);
   TriangleLadder ladder;
   if (*form == TerrainForm::static_trees) {
     ladder = countTriangles(*index_->trees, treeErrorOf(request.staticLod.error), view,

@@ -42,15 +42,18 @@ struct trimtab_fitting {
   std::string file;
   std::optional<trimtab::FrameRequest> view;  ///< that is drawn again and again
   std::size_t written = 0;                    ///< views in the file
+  bool requested = false;                     ///< an image that is not finished yet
+  bool byEnvironment = false;                 ///< nobody asks how it ended
 };
 
 struct trimtab_session {
   explicit trimtab_session(const trimtab::ValidatedParameters& parameters);
 
-  /// Forgets the image, because a state has been decided after it.
+  /// Forgets the image, because a state has been decided after it. A fit stays in its view.
   void decided() {
-    image.reset();
     chain.reset();
+    if (fitting) return;
+    image.reset();
   }
   const trimtab::FrameDecision& decision() const { return image ? image->decision : session.decision(); }
   const trimtab::LeverChain& levers();
@@ -116,7 +119,10 @@ void give(trimtab_findings** to, Findings findings);
 std::size_t give(char* text, std::size_t capacity, std::string_view line);
 
 /// Gives a new session the profile of the environment, and begins its fit.
-trimtab_status beginAsTold(trimtab_session& session);
+trimtab_status beginByEnvironment(trimtab_session& session);
+/// Ends the fit of a session that is freed. One that the environment began says on standard error what is
+/// wrong.
+void endWithSession(trimtab_session& session);
 /// Requests the image of a fit, which stays in its view; and takes what it cost.
 std::optional<FrameRequest> requestOf(trimtab_session& session, double now, int widthPx, int heightPx);
 void finishFitted(trimtab_session& session, const FrameCost& cost, double load);

@@ -23,20 +23,54 @@ Findings write(trimtab_fitting& fitting) {
   return writeAtomically(fitting.file, fitText(*fit)).findings();
 }
 
+Result<Done> begin(trimtab_session& session, const char* file, bool byEnvironment) {
+  auto may = canReplace(file);
+  if (may) may = canMake(file);
+  if (!may) return may;
+  session.fitting.emplace(*session.profile, file);
+  session.fitting->byEnvironment = byEnvironment;
+  session.session.keepRows(false);  // what a fit draws is not what was decided
+  return may;
+}
+
+/// Ends the fit, writes its file, and returns what is wrong with it.
+Findings end(trimtab_session& session) {
+  Findings all = write(*session.fitting);
+  if (const Result<IgFit> fit = session.fitting->flight.result(); fit && !hasError(all))
+    all = checkFit(*fit, *session.profile, session.fitting->file).findings();
+  session.fitting.reset();
+  session.decided();
+  session.session.keepRows(session.trace.has_value());
+  return all;
+}
+
+void print(const Findings& findings) {
+  if (!findings.empty()) std::fprintf(stderr, "%s\n", toString(findings).c_str());
+}
+
 }  // namespace
 
-trimtab_status beginAsTold(trimtab_session& session) {
-  const char* profile = std::getenv("TRIMTAB_PROFILE");
-  if (profile == nullptr || *profile == '\0') return TRIMTAB_OK;
-  const Result<IgProfile> read = loadIgProfile(profile);
-  if (!read) {
-    std::fprintf(stderr, "%s\n", toString(read.findings()).c_str());
-    return TRIMTAB_REFUSED;
-  }
+void endWithSession(trimtab_session& session) {
+  if (!session.fitting) return;
+  const bool byEnvironment = session.fitting->byEnvironment;
+  const Findings all = end(session);
+  if (byEnvironment) print(all);
+}
+
+trimtab_status beginByEnvironment(trimtab_session& session) {
+  const auto set = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr ? value : "";
+  };
+  if (*set("TRIMTAB_PROFILE") == '\0') return TRIMTAB_OK;
+  const Result<IgProfile> read = loadIgProfile(set("TRIMTAB_PROFILE"));
+  print(read.findings());
+  if (!read) return TRIMTAB_REFUSED;
   session.profile = *read;
-  if (const char* file = std::getenv("TRIMTAB_FIT"); file != nullptr && *file != '\0')
-    session.fitting.emplace(*read, file);
-  return TRIMTAB_OK;
+  if (*set("TRIMTAB_FIT") == '\0') return TRIMTAB_OK;
+  const Result<Done> begun = begin(session, set("TRIMTAB_FIT"), true);
+  print(begun.findings());
+  return begun ? TRIMTAB_OK : TRIMTAB_REFUSED;
 }
 
 std::optional<FrameRequest> requestOf(trimtab_session& session, double now, int widthPx, int heightPx) {
@@ -45,12 +79,13 @@ std::optional<FrameRequest> requestOf(trimtab_session& session, double now, int 
   if (!fitting.view || !fitting.flight.staysInView())
     fitting.view = session.session.request(now, widthPx, heightPx);
   if (fitting.view) fitting.flight.setLevers(*fitting.view);
+  fitting.requested = fitting.view.has_value();
   return fitting.view;
 }
 
 void finishFitted(trimtab_session& session, const FrameCost& cost, double load) {
   trimtab_fitting& fitting = *session.fitting;
-  if (!fitting.view) return;
+  if (!std::exchange(fitting.requested, false)) return;
   fitting.flight.finished(*fitting.view, cost, load);
   // A program that is killed leaves what it has; what cannot be written is said at the end.
   if (fitting.flight.views() >= fitting.written + kViewsAWrite) static_cast<void>(write(fitting));
@@ -125,8 +160,10 @@ trimtab_status trimtab_preset_adapt(const trimtab_preset* preset, const trimtab_
 
 trimtab_status trimtab_session_set_profile(trimtab_session* session, const trimtab_profile* profile,
                                            const trimtab_fit* fit) {
-  if (session == nullptr || profile == nullptr || session->fitting) return TRIMTAB_MISUSE;
+  if (session == nullptr || profile == nullptr) return TRIMTAB_MISUSE;
   return c::guarded([&] {
+    if (session->fitting) return profile->profile == *session->profile ? TRIMTAB_OK : TRIMTAB_MISUSE;
+    if (fit != nullptr && !checkFit(fit->fit, profile->profile, "")) return TRIMTAB_REFUSED;
     session->profile = profile->profile;
     if (fit != nullptr) {
       session->session.hold().setLoadShape(fit->fit.shape);
@@ -150,11 +187,9 @@ trimtab_status trimtab_session_fit_start(trimtab_session* session, const char* f
                                          trimtab_findings** findings) {
   if (session == nullptr || file == nullptr || !session->profile || session->fitting) return TRIMTAB_MISUSE;
   return c::guarded([&] {
-    const Result<Done> may = canReplace(file);
-    c::give(findings, may.findings());
-    if (!may) return TRIMTAB_REFUSED;
-    session->fitting.emplace(*session->profile, file);
-    return TRIMTAB_OK;
+    const Result<Done> begun = c::begin(*session, file, false);
+    c::give(findings, begun.findings());
+    return begun ? TRIMTAB_OK : TRIMTAB_REFUSED;
   });
 }
 
@@ -181,11 +216,7 @@ trimtab_status trimtab_session_fit_picture(trimtab_session* session, const void*
 trimtab_status trimtab_session_fit_finish(trimtab_session* session, trimtab_findings** findings) {
   if (session == nullptr || !session->fitting) return TRIMTAB_MISUSE;
   return c::guarded([&] {
-    Findings all = c::write(*session->fitting);
-    if (const Result<IgFit> fit = session->fitting->flight.result(); fit && !hasError(all))
-      all = checkViews(*fit, session->fitting->file).findings();
-    session->fitting.reset();
-    session->decided();
+    const Findings all = c::end(*session);
     c::give(findings, all);
     return hasError(all) ? TRIMTAB_REFUSED : TRIMTAB_OK;
   });

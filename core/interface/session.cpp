@@ -29,7 +29,7 @@ trimtab_status trimtab_session_create(const trimtab_preset* preset, trimtab_sess
   if (preset == nullptr || session == nullptr) return TRIMTAB_MISUSE;
   return c::guarded([&] {
     auto made = std::make_unique<trimtab_session>(preset->parameters);
-    const trimtab_status begun = c::beginAsTold(*made);
+    const trimtab_status begun = c::beginByEnvironment(*made);
     if (begun == TRIMTAB_OK) *session = made.release();
     return begun;
   });
@@ -38,7 +38,7 @@ trimtab_status trimtab_session_create(const trimtab_preset* preset, trimtab_sess
 void trimtab_session_free(trimtab_session* session) {
   if (session != nullptr) {
     trimtab_session_trace_finish(session, nullptr);
-    trimtab_session_fit_finish(session, nullptr);
+    c::guarded([&] { return c::endWithSession(*session), TRIMTAB_OK; });
   }
   delete session;
 }
@@ -158,10 +158,12 @@ trimtab_status trimtab_session_finished(trimtab_session* session, const trimtab_
     result.cost.draw = given.draw_ms;
     result.cost.gpu = given.gpu_ms;
     result.visible.triangles = given.triangles;
+    constexpr double kMostLoad = 1e15;
     if (session->profile)
-      result.visible.triangles =
-          static_cast<std::uint64_t>(loadOf(*session->profile, static_cast<double>(given.triangles),
-                                            static_cast<double>(given.nodes), workMs(result.cost)));
+      result.visible.triangles = static_cast<std::uint64_t>(
+          std::clamp(loadOf(*session->profile, static_cast<double>(given.triangles),
+                            static_cast<double>(given.nodes), workMs(result.cost)),
+                     0.0, kMostLoad));
     result.visible.vertices = given.vertices;
     result.tilesInCut = given.nodes;
     if (session->fitting) {
@@ -192,7 +194,7 @@ trimtab_status trimtab_session_trace_start(trimtab_session* session, const char*
     c::give(findings, opened.findings());
     if (!opened) return TRIMTAB_REFUSED;
     session->trace.emplace(std::move(opened).value());
-    session->session.keepRows(true);
+    session->session.keepRows(!session->fitting);
     return TRIMTAB_OK;
   });
 }

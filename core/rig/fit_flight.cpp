@@ -134,18 +134,24 @@ void FitFlight::completeView() {
   for (Taken& t : taken_) t.seen.rgba.clear();
 }
 
-/// Returns the load that is left octave by octave of the lever that an allowed error moves. Octaves beyond
-/// its range leave what its end does.
+/// Returns the load that is left octave by octave of the lever that an allowed error moves: from setting to
+/// setting by a constant factor an octave. Octaves beyond its range leave what its end does.
 LoadShape FitFlight::shape() const {
   constexpr double kLeast = 1e-3;
-  LoadShape shape;
-  shape.fill(1);
   const IgLever* error = profile_.errorLever();
-  for (std::size_t k = 1; k < shape.size(); ++k) {
-    shape[k] = shape[k - 1];
-    for (const Setting& s : settings_)
-      if (s.lever == error && std::abs(s.value / (error->neutral() * std::exp2(k)) - 1) < 1e-6)
-        shape[k] = std::clamp(pairedRatio(neutral_.load, s.load).median, kLeast, shape[k - 1]);
+  double octave = 0, left = 1, nextOctave = 0, next = 1;
+  auto s = settings_.begin();
+  LoadShape shape;
+  for (std::size_t k = 0; k < shape.size(); ++k) {
+    const auto at = static_cast<double>(k);
+    for (; s != settings_.end() && nextOctave < at; ++s) {
+      if (s->lever != error || s->value <= error->neutral()) continue;
+      octave = nextOctave, left = next;
+      nextOctave = std::log2(s->value / error->neutral());
+      next = std::clamp(pairedRatio(neutral_.load, s->load).median, kLeast, left);
+    }
+    const double part = nextOctave > octave ? std::clamp((at - octave) / (nextOctave - octave), 0.0, 1.0) : 1;
+    shape[k] = left * std::pow(next / left, part);
   }
   return shape;
 }

@@ -12,7 +12,7 @@
 namespace trimtab {
 namespace {
 
-/// Returns the part of a signal over which a term changes. Of shapes without ends it is that between
+/// Returns the part of a signal over which a term changes. If a shape has no ends, it is the part between
 /// memberships of some 0.1 to 0.9.
 Range spanOf(const PolicyTerm& term) {
   Range span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -43,15 +43,19 @@ Range spanOf(const PolicyTerm& term) {
   return span;
 }
 
-/// Returns the number as a preset is to have it: no fit knows more than four digits.
-double rounded(double x) {
-  return *readNumber(numberText(x, 4));
+/// Returns the number with four digits of a span: no fit knows more, and what lies apart stays apart.
+double rounded(double x, double span) {
+  const double finer = std::ceil(std::log10(std::max(std::abs(x) / span, 1.0)));
+  return *readNumber(numberText(x, 4 + static_cast<int>(std::min(finer, 12.0))));
 }
 
-/// Moves a term by x -> from.low' + (x - from.low) * scale.
-void move(PolicyTerm& term, Range from, Range to) {
-  const double scale = (to.high - to.low) / (from.high - from.low);
-  const auto place = [&](double& x) { x = std::isfinite(x) ? rounded(to.low + (x - from.low) * scale) : x; };
+/// Moves a term: x goes to `to.low` + (x - `from.low`) * scale.
+void moveTerm(PolicyTerm& term, Range from, Range to) {
+  const double span = to.high - to.low, scale = span / (from.high - from.low);
+  const auto place = [&](double& x) {
+    if (std::isfinite(x)) x = rounded(to.low + (x - from.low) * scale, span * 1e-3);
+  };
+  const auto width = [](double x) { return rounded(x, x); };
   std::vector<double>& n = term.numbers;
   switch (term.shape) {
     case TermShape::points:
@@ -64,10 +68,10 @@ void move(PolicyTerm& term, Range from, Range to) {
       break;
     case TermShape::gaussian:
     case TermShape::bell:
-      place(n[0]), n[1] = rounded(n[1] * scale);
+      place(n[0]), n[1] = width(n[1] * scale);
       break;
     case TermShape::sigmoid:
-      place(n[0]), n[1] = rounded(n[1] / scale);
+      place(n[0]), n[1] = width(n[1] / scale);
       break;
   }
 }
@@ -100,7 +104,7 @@ class Fitter {
   }
   template <class Unit>
   void set(Unit& field, double value, const char* key) {
-    const double now = rounded(value);
+    const double now = rounded(value, value);
     if (field.value() == now) return;
     note(key, numberText(now), numberText(field.value()));
     field = Unit{now};
@@ -122,7 +126,7 @@ class Fitter {
     for (PolicyTerm& term : policy.terms) {
       if (term.signal != Signal::triangles) continue;
       const std::string before = shapeText(term);
-      move(term, from, {fit_.loadLow, fit_.loadHigh});
+      moveTerm(term, from, {fit_.loadLow, fit_.loadHigh});
       note("policy.terms.triangles." + term.name, shapeText(term), before);
     }
     preset_.policy = policyLines(policy, preset_.policy);
@@ -151,10 +155,7 @@ class Fitter {
 
 Result<TuningParameters> fittedTo(const IgProfile& profile, const IgFit& fit, TuningParameters preset,
                                   const std::string& where) {
-  if (fit.ig != profile.name)
-    return Finding{Severity::error, where, "ig", "a fit of \"" + profile.name + '"',
-                   "one of \"" + fit.ig + '"'};
-  if (const auto views = checkViews(fit, where); !views) return views.findings();
+  if (const auto good = checkFit(fit, profile, where); !good) return good.findings();
   Fitter fitter(profile, fit, preset, where);
   fitter.run();
   Result<TuningParameters> limited = limitedTo(profile, std::move(preset), where);

@@ -49,7 +49,7 @@ class Reader {
       else if (m.key == "ig")
         fit_.ig = json::readString(m.value).value_or("");
       else if (m.key == "views")
-        fit_.views = static_cast<std::size_t>(count(m));
+        fit_.views = static_cast<std::size_t>(std::min(count(m), 1e9));
       else if (m.key == "time_ms")
         fit_.timeMs = count(m);
       else if (m.key == "load_low")
@@ -181,7 +181,10 @@ Result<IgFit> loadIgFit(const std::filesystem::path& file) {
   return parseIgFit(*text, file.string());
 }
 
-Result<Done> checkViews(const IgFit& fit, const std::string& where) {
+Result<Done> checkFit(const IgFit& fit, const IgProfile& profile, const std::string& where) {
+  if (fit.ig != profile.name)
+    return Finding{Severity::error, where, "ig", "a fit of \"" + profile.name + '"',
+                   "one of \"" + fit.ig + '"'};
   if (fit.views >= kFewestFitViews) return Done{};
   return Finding{Severity::error, where, "views",
                  "at least " + std::to_string(kFewestFitViews) + " views: fly a longer flight",

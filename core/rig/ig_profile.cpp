@@ -30,12 +30,12 @@ class Reader {
   Reader(std::string_view text, const std::string& where) : text_(text), where_(where) {}
 
   Result<IgProfile> read() {
-    bool isProfile = false;
+    bool isProfile = false, hasVersion = false;
     for (const json::Member& m : json::members(text_, text_)) {
       if (m.key == "format")
         isProfile = json::readString(m.value) == kFormat;
       else if (m.key == "version")
-        number(m, "", 1, 1);
+        number(m, "", 1, 1), hasVersion = true;
       else if (m.key == "name")
         profile_.name = string(m, "");
       else if (m.key == "load")
@@ -49,6 +49,10 @@ class Reader {
     }
     if (!isProfile)
       return Finding{Severity::error, where_, "format", '"' + std::string(kFormat) + '"', "another file"};
+    if (!hasVersion) findings_.add({Severity::error, where_, "version", "1", "none"});
+    if (profile_.name.empty())
+      findings_.add(
+          {Severity::error, where_, "name", "a name, by which a fit knows its image generator", "none"});
     if (profile_.levers.empty() && !findings_.hasError())
       findings_.add({Severity::error, where_, "levers", "at least one of " + leverKeys(), "none"});
     if (findings_.hasError()) return findings_.all(where_);
@@ -75,6 +79,11 @@ class Reader {
         bounded ? "a number from " + numberText(low) + " to " + numberText(high) : "a finite number",
         std::string(m.value.substr(0, 40)));
     return low;
+  }
+  bool flag(const json::Member& m, const std::string& under) {
+    if (m.value != "true" && m.value != "false")
+      say(Severity::error, m, under, "true or false", std::string(m.value.substr(0, 40)));
+    return m.value == "true";
   }
   void readLoad(const json::Member& m) {
     const auto name = json::readString(m.value);
@@ -108,7 +117,7 @@ class Reader {
       else if (m.key == "factor")
         l.factor = number(m, under, 1e-9, kMost);
       else if (m.key == "inverse")
-        l.inverse = m.value == "true";
+        l.inverse = flag(m, under);
       else if (m.key == "from")
         from = number(m, under, -kMost, kMost);
       else if (m.key == "to")
@@ -127,6 +136,9 @@ class Reader {
     if (!(*neutral >= *from && *neutral <= *to))
       return wrong("a neutral value from " + numberText(*from) + " to " + numberText(*to),
                    numberText(*neutral));
+    // Errors and scales are felt by ratios: nothing is so many times 0.
+    if ((lever.key == kError || lever.key == kLodScale) && !(*from > 0))
+      return wrong("from above 0", numberText(*from));
     if (l.inverse && !(*from > 0)) return wrong("from above 0, because it is inverse", numberText(*from));
     profile_.levers.push_back(std::move(l));
   }

@@ -82,9 +82,11 @@ class Limiter {
   }
 
   void limitHold() {
+    constexpr Range kErrors = rowOf(Lever::screen_space_error).hard;
     HoldParameters& h = preset_.hold;
     if (!has(Lever::screen_space_error))
-      set(h.errorMaximum, preset_.lod.screenSpaceError.value(), "hold.error_maximum_px");
+      set(h.errorMaximum, std::clamp(preset_.lod.screenSpaceError.value(), kErrors.low, kErrors.high),
+          "hold.error_maximum_px");
     else
       set(h.errorMaximum, std::min(h.errorMaximum.value(), rangeOf(Lever::screen_space_error).high),
           "hold.error_maximum_px");

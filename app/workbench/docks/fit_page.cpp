@@ -197,7 +197,7 @@ void FitPage::cancel() {
   child_.cancel();
 }
 
-/// The file is there from the first views on, and may be half written just now.
+/// The file is there from the first views on.
 void FitPage::showProgress() {
   const Result<IgFit> soFar = loadIgFit(fileOfRun().toStdString());
   if (!soFar) return;
@@ -245,13 +245,7 @@ Findings FitPage::show(const QString& file) {
   const IgProfile& ig = *draft_.imageGenerator();
   const Result<IgFit> read = loadIgFit(file.toStdString());
   if (!read) return read.findings();
-  const auto wrong = [&](const char* key, std::string expected, std::string found) {
-    return Findings{{Severity::error, file.toStdString(), key, std::move(expected), std::move(found)}};
-  };
-  if (read->ig != ig.name) return wrong("ig", "a fit of \"" + ig.name + '"', "one of \"" + read->ig + '"');
-  if (read->views < kFewestFitViews)
-    return wrong("views", "at least " + std::to_string(kFewestFitViews) + " views: fly a longer flight",
-                 std::to_string(read->views));
+  if (const auto good = checkFit(*read, ig, file.toStdString()); !good) return good.findings();
   fit_ = *read;
   report_->show(fitReport(*fit_, ig));
   showRunning();

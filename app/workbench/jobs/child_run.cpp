@@ -2,6 +2,7 @@
 #include "child_run.h"
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <QCoreApplication>
 #include <QRegularExpression>
@@ -22,7 +23,7 @@ ChildRun::ChildRun(QObject* parent) : QObject(parent) {
   });
   connect(&process_, &QProcess::finished, this, &ChildRun::onFinished);
   patience_.setSingleShot(true);
-  connect(&patience_, &QTimer::timeout, &process_, &QProcess::kill);
+  connect(&patience_, &QTimer::timeout, this, [this] { signal(SIGKILL); });
   connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
     if (error != QProcess::FailedToStart) return;
     emit ended({false,
@@ -39,7 +40,7 @@ ChildRun::ChildRun(QObject* parent) : QObject(parent) {
 ChildRun::~ChildRun() {
   process_.disconnect(this);
   if (!running()) return;
-  process_.kill();
+  signal(SIGKILL);
   process_.waitForFinished(kStopMs);
 }
 
@@ -65,14 +66,21 @@ void ChildRun::begin(const QString& program, const QStringList& arguments,
   errors_.clear();
   cancelled_ = false;
   process_.setProcessEnvironment(environment);
+  // A group of its own, which signal() reaches as a whole.
+  process_.setChildProcessModifier(other_ ? std::function<void()>([] { ::setpgid(0, 0); }) : nullptr);
   process_.start(program, arguments);
+}
+
+/// Sends a signal to the program, and to all that another program started: it may be a script.
+void ChildRun::signal(int number) {
+  // 0 would be this program and all it started.
+  if (const auto id = static_cast<pid_t>(process_.processId()); id > 0) ::kill(other_ ? -id : id, number);
 }
 
 void ChildRun::cancel() {
   if (!running()) return;
   cancelled_ = true;
-  // 0 would be this program and all it started.
-  if (const auto id = static_cast<pid_t>(process_.processId()); id > 0) ::kill(id, other_ ? SIGTERM : SIGINT);
+  signal(other_ ? SIGTERM : SIGINT);
   patience_.start(kStopMs);
 }
 

@@ -47,6 +47,7 @@ class ChildRun : public QObject {
 
  private:
   void begin(const QString& program, const QStringList& arguments, const QProcessEnvironment& environment);
+  void signal(int number);
   void onOutput();
   void onErrors();
   void onFinished(int exitCode, QProcess::ExitStatus status);

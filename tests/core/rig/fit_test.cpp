@@ -106,6 +106,22 @@ TEST(FitFlight, findsWhatWasPlanted) {
   EXPECT_NEAR(predict(model.coefficients(load), load).total(), Planted::ms(11000), 1);
 }
 
+TEST(FitFlight, knowsWhatARangeWithoutOctavesLeaves) {
+  IgProfile narrow = viewer();
+  narrow.levers[0].own = {1, 1.5};
+  FitFlight flight(narrow);
+  Planted().fly(flight, 20, false);
+  const LoadShape shape = flight.result()->shape;
+  EXPECT_EQ(shape[0], 1);
+  for (std::size_t k = 1; k < shape.size(); ++k)
+    EXPECT_NEAR(shape[k], std::pow(0.6, std::log2(1.5)), 1e-9) << "the end of the range leaves so much";
+  narrow.levers[0].own = {1, 3};
+  FitFlight wider(narrow);
+  Planted().fly(wider, 20, false);
+  EXPECT_NEAR(wider.result()->shape[1], 0.6, 1e-9);
+  EXPECT_NEAR(wider.result()->shape[2], std::pow(0.6, std::log2(3)), 1e-9);
+}
+
 TEST(FitFlight, readsPixelsFromImages) {
   const IgFit fit = flown(true);
   EXPECT_NEAR(fit.neutralPx, 0.75, 0.1);
@@ -205,6 +221,16 @@ TEST(FittedPreset, movesTermsOfEveryShape) {
                            "triangles c = gaussian 150 10", "triangles d = bell 150 10 2",
                            "triangles e = sigmoid 150 0.1", "triangles f = trapezoid -inf 100 120 140",
                            "altitude low = ramp 5000 1000"));
+}
+
+TEST(FittedPreset, keepsTermsApartThatLieClose) {
+  TuningParameters p;
+  p.policy.terms.line = {"triangles a = ramp 0 1000000", "triangles b = ramp 500000 500100"};
+  IgFit fit = flown(false);
+  fit.loadLow = 123441, fit.loadHigh = 123449;
+  const Result<TuningParameters> fitted = fittedTo(viewer(), fit, p, "p");
+  ASSERT_TRUE(fitted.ok());
+  EXPECT_TRUE(validate(*fitted).ok()) << toString(validate(*fitted).findings());
 }
 
 TEST(FittedPreset, takesPixelsAndLossesFromImages) {

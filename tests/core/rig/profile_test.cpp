@@ -92,7 +92,9 @@ TEST(IgProfile, ofBadInputIsRefusedByLineAndKey) {
        {R"("lod_scale": {"from": 1, "to": 1e300, "neutral": 1})", "levers.lod_scale.to", "1e300"},
        {R"("lod_scale": {"from": 1, "to": 2, "neutral": "1"})", "levers.lod_scale.neutral", "\"1\""},
        {R"("lod_scale": {"from": 1, "to": 2, "neutral": 1, "factor": 0})", "levers.lod_scale.factor", "0"},
-       {R"("lod_scale": {"from": 0, "to": 2, "neutral": 1, "inverse": true})", "levers.lod_scale", "0"},
+       {R"("lod_scale": {"from": 0, "to": 2, "neutral": 0})", "levers.lod_scale", "0"},
+       {R"("lod_scale": {"from": 1, "to": 2, "neutral": 1, "inverse": 1})", "levers.lod_scale.inverse", "1"},
+       {R"("far_distance": {"from": 0, "to": 2, "neutral": 1, "inverse": true})", "levers.far_distance", "0"},
        {R"("lod_scale": {"from": 1, "to": 2, "neutral": 1}, "lod_scale": {"from": 1, "to": 2, "neutral": 1})",
         "levers.lod_scale", "it again"}}) {
     const Result<IgProfile> p = parseIgProfile(head + c.levers + "}}", "p.json");
@@ -103,6 +105,12 @@ TEST(IgProfile, ofBadInputIsRefusedByLineAndKey) {
     EXPECT_EQ(first.found, c.found);
   }
   EXPECT_FALSE(parseIgProfile(head + "}}", "p").ok()) << "it has no lever";
+  constexpr const char* kNameless =
+      R"({"format": "trimtab-ig-profile", "levers": {"lod_scale": {"from": 1, "to": 2, "neutral": 1}}})";
+  const Findings nameless = parseIgProfile(kNameless, "p").findings();
+  ASSERT_EQ(nameless.size(), 2u);
+  EXPECT_EQ(nameless[0].key, "version");
+  EXPECT_EQ(nameless[1].key, "name");
   EXPECT_FALSE(parseIgProfile("{\"format\": \"trimtab-preset\"}", "p").ok());
   EXPECT_FALSE(parseIgProfile("{", "p").ok());
   EXPECT_FALSE(loadIgProfile("/nowhere/p.json").ok());

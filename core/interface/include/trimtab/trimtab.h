@@ -123,9 +123,10 @@ trimtab_status trimtab_session_set_preset(trimtab_session* session, const trimta
 /* Forgets states, memory and host, for a new flight. */
 trimtab_status trimtab_session_restart(trimtab_session* session);
 
-/* Tells the session which levers the image generator has and what it reports of an image, and with a fit (may
- * be null) what images cost and by what their load falls, so that a budget holds from the first image on.
- * Both are copied. */
+/* Gives the session the levers of the image generator and what it reports of an image, and with a fit (may be null)
+ * what images cost and by what their load falls, so that a budget holds from the second image on. Both are copied. A fit
+ * of another image generator, or from too few views, is TRIMTAB_REFUSED. While a fit is flown, the profile that it is
+ * flown with changes nothing, and another one is TRIMTAB_MISUSE. */
 trimtab_status trimtab_session_set_profile(trimtab_session* session, const trimtab_profile* profile,
                                            const trimtab_fit* fit);
 
@@ -266,7 +267,8 @@ trimtab_status trimtab_session_trace_finish(trimtab_session* session, trimtab_fi
  * the same view again until it has all settings of it, whatever states arrive meanwhile. A view takes some
  * twenty images, a fit at least twenty views. No trace rows are made. */
 
-/* Begins a fit; the session needs a profile. What is known is written to `file` every few views. */
+/* Begins a fit; the session needs a profile. What is known is written to `file` every few views. With images, the last
+ * one of a view is compared in trimtab_session_finished, which then takes some tenths of a second. */
 trimtab_status trimtab_session_fit_start(trimtab_session* session, const char* file,
                                          trimtab_findings** findings);
 /* Returns how many views are complete; 0 without a fit. */

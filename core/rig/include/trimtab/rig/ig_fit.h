@@ -36,10 +36,10 @@ struct IgFit {
   CostModel::State cost;
 };
 
-/// A fit from fewer views has no percentiles, and a preset is not fitted to it (checkViews).
+/// A fit from fewer views has no percentiles, and a preset is not fitted to it.
 inline constexpr std::size_t kFewestFitViews = 20;
-/// Refuses a fit from too few views; `where` names it.
-Result<Done> checkViews(const IgFit& fit, const std::string& where);
+/// Refuses a fit of another image generator, and one from too few views; `where` names it.
+Result<Done> checkFit(const IgFit& fit, const IgProfile& profile, const std::string& where);
 
 /// Returns the fit as JSON; and the inverse, with findings that name line and key.
 std::string fitText(const IgFit& fit);

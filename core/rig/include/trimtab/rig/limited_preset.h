@@ -9,14 +9,14 @@
 /// Makes a preset one that decides nothing which an image generator does not have.
 namespace trimtab {
 
-/// Reports whether the profile's IG follows a lever of a policy. An allowed error it also follows by its LOD
+/// Reports whether the profile's IG follows a lever of a policy. It may follow an allowed error by its LOD
 /// scale.
 bool follows(const IgProfile& profile, Lever lever);
 
-/// Returns the preset without what the IG lacks: rules keep only the settings of levers that it has, within
-/// its ranges, and go if they have none left; head motion, budget and culling scheme leave the other levers
-/// alone. So nothing is filtered in flight, and every program decides alike. Notes name each change, with
-/// `where` as their place. The policy must be one that policyOf() reads; else it stays as it is.
+/// Returns the preset without what the IG does not have: rules keep only the settings of levers that it has,
+/// within its ranges, and a rule without a setting is left out; head motion, budget and culling scheme leave
+/// the other levers alone. So nothing is filtered in flight, and every program decides alike. Notes name each
+/// change, with `where` as their place. The policy must be one that policyOf() reads; else it stays as it is.
 Result<TuningParameters> limitedTo(const IgProfile& profile, TuningParameters preset,
                                    const std::string& where);
 
