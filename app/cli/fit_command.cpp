@@ -92,10 +92,22 @@ std::vector<std::string> filledIn(std::vector<std::string> command, const std::s
   return command;
 }
 
-/// Flies the fit. Returns false if there is nothing to go on with.
-bool flew(const FitOptions& options, const std::vector<std::string>& command, const fs::path& file) {
+/// Sees that a file of this name is of a run before, not somebody else's.
+template <class Read>
+bool mayTakeItsPlace(const fs::path& file, const Read& read) {
   std::error_code ignored;
-  fs::remove(file, ignored);  // of a run before: what is there in the end is this one's
+  if (!fs::exists(file, ignored) || read(file)) return true;
+  report({{Severity::error, file.string(), "", "a new folder, or that of a fit before",
+           "another file of this name"}});
+  return false;
+}
+
+/// Flies the fit. Returns false if there is nothing to go on with. A fit of a run before stays until this one
+/// has written something.
+bool flew(const FitOptions& options, const std::vector<std::string>& command, const fs::path& target) {
+  std::error_code ignored;
+  const fs::path file = target.parent_path() / "fit.part.json";
+  fs::remove(file, ignored);  // left by a run that was killed
   Generator generator(command, options.profile, file);
   if (generator.error != 0) {
     report({{Severity::error, command.front(), "", "a program that can be run",
@@ -112,12 +124,24 @@ bool flew(const FitOptions& options, const std::vector<std::string>& command, co
     generator.end();
     break;
   }
-  if (WIFEXITED(generator.status) && WEXITSTATUS(generator.status) == 0) return true;
-  const std::string how = WIFEXITED(generator.status)
-                              ? "exit status " + std::to_string(WEXITSTATUS(generator.status))
-                              : "signal " + std::to_string(WTERMSIG(generator.status));
-  report({{stopRequested() ? Severity::note : Severity::warning, command.front(), "", "exit status 0", how}});
-  return true;  // what it wrote until then counts
+  if (!WIFEXITED(generator.status) || WEXITSTATUS(generator.status) != 0) {
+    const std::string how = WIFEXITED(generator.status)
+                                ? "exit status " + std::to_string(WEXITSTATUS(generator.status))
+                                : "signal " + std::to_string(WTERMSIG(generator.status));
+    report(
+        {{stopRequested() ? Severity::note : Severity::warning, command.front(), "", "exit status 0", how}});
+  }
+  // What it wrote until then counts.
+  if (!fs::exists(file, ignored)) {
+    report({{Severity::error, target.string(), "",
+             "a fit of at least " + std::to_string(kFewestFitViews) +
+                 " views, written by a program that links libtrimtab: fly longer, or look at its output",
+             "none"}});
+    return false;
+  }
+  const auto placed = putInPlace(file, target);
+  report(placed.findings());
+  return placed.ok();
 }
 
 bool wroteExport(const fs::path& file, const Preset& preset, const TuningParameters& parameters) {
@@ -143,19 +167,15 @@ int run(const FitOptions& options) {
     report({{Severity::error, "--flight", "", "the flight that stands in place of {flight}", "none"}});
     return kRefused;
   }
+  const auto isPreset = [](const fs::path& file) { return loadPreset(file.string()).ok(); };
+  if (!mayTakeItsPlace(fitFile, [](const fs::path& file) { return loadIgFit(file).ok(); }) ||
+      !mayTakeItsPlace(flown, isPreset) || !mayTakeItsPlace(fittedFile, isPreset))
+    return kRefused;
   if (!options.command.empty()) {
     const auto limited = limitedTo(*profile, preset->parameters, options.preset);
     if (!wroteExport(flown, *preset, *limited) ||
         !flew(options, filledIn(options.command, flown.string(), options.flight), fitFile))
       return kRefused;
-    std::error_code ignored;
-    if (!fs::exists(fitFile, ignored)) {
-      report({{Severity::error, fitFile.string(), "",
-               "a fit of at least " + std::to_string(kFewestFitViews) +
-                   " views, written by a program that links libtrimtab: fly longer, or look at its output",
-               "none"}});
-      return kRefused;
-    }
   }
   const auto fit = loadIgFit(fitFile);
   report(fit.findings());
@@ -175,12 +195,11 @@ void addFit(CLI::App& app, int& exitCode) {
   CLI::App* const command =
       app.add_subcommand("fit", "Fit a preset to an image generator that is not ours, by flying it");
   command->footer(
-      "COMMAND starts an image generator that links libtrimtab, with {preset} and {flight} where their files "
-      "belong, after two dashes: trimtab-cli fit --profile ig.json --preset low-level --flight f.csv -o fit "
-      "-- "
-      "my_ig {preset} {flight}. It draws each view with one lever at a time moved. Without COMMAND, the fit "
-      "that "
-      "is in the folder is applied to the preset.");
+      "COMMAND, after two dashes, starts an image generator that links libtrimtab; {preset} and {flight} in "
+      "it "
+      "stand for their files: trimtab-cli fit --profile ig.json --preset low-level -o fit -- my_ig {preset}. "
+      "Each view is drawn with one lever at a time moved. Without COMMAND, the fit in the folder is "
+      "applied.");
   auto options = std::make_shared<FitOptions>();
   command->add_option("--profile", options->profile, "What the image generator has and reports")->required();
   command->add_option("--preset", options->preset, "Preset to fit")->capture_default_str();

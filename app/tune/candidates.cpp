@@ -49,7 +49,7 @@ Objectives Judge::operator()(std::span<const double> place) const {
 
 double Judge::merit(const Objectives& objectives) const {
   const std::size_t limited = plan_.maxError ? 1 : 0;
-  const double limit = (plan_.maxError ? *plan_.maxError : plan_.budgetMs.value_or(kInfinite));
+  const double limit = plan_.maxError ? *plan_.maxError : plan_.budgetMs.value_or(kInfinite);
   const double over = objectives[limited] / limit;
   // FLIP is at most 1, and no image takes an hour.
   constexpr double kFar = 1e7;

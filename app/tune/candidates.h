@@ -31,8 +31,8 @@ class Judge {
   std::span<const FlightModel> models_;
 };
 
-/// Returns presets along a front to draw, `count` or as many as there are: around what the plan asks for, or without a limit
-/// evenly along the front. `stretch` multiplies the limit.
+/// Returns presets along a front to draw, `count` or as many as there are: around what the plan asks for, or
+/// without a limit evenly along the front. `stretch` multiplies the limit.
 std::vector<Candidate> chosen(const Plan& plan, std::span<const Candidate> front, std::size_t count,
                               double stretch);
 

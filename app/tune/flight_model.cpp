@@ -167,7 +167,7 @@ struct FlightModel::Impl {
   std::vector<SampleRow> toDraw;
   std::optional<Metres> highest;
   FittedCost cost;
-  /// By which part the fitted costs miss the samples' times: the median, and what 90 % stay below.
+  /// Holds the part by which the fitted costs miss the samples' times: its median and its 90th percentile.
   struct Fit {
     double median = 0, p90 = 0;
   };
@@ -379,7 +379,7 @@ void FlightModel::Impl::fly(const ValidatedParameters& parameters) {
   Decider decider(valid ? *valid : parameters);
   decider.setGround(ground);
   signalsFlown = parameters.policy() != nullptr;
-  // Whoever watches is told of the height above ground, which a rule may ask for.
+  // A watched decider also knows the height above ground, for which a rule may ask.
   if (signalsFlown) decider.watchSignals();
   flown.clear();
   flown.reserve(rows.size());

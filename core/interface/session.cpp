@@ -158,7 +158,7 @@ trimtab_status trimtab_session_finished(trimtab_session* session, const trimtab_
     result.cost.draw = given.draw_ms;
     result.cost.gpu = given.gpu_ms;
     result.visible.triangles = given.triangles;
-    constexpr double kMostLoad = 1e15;
+    constexpr double kMostLoad = 1e15;  // what is longer or negative is no time, and would not convert
     if (session->profile)
       result.visible.triangles = static_cast<std::uint64_t>(
           std::clamp(loadOf(*session->profile, static_cast<double>(given.triangles),

@@ -16,8 +16,6 @@ constexpr int kBlock = 16;
 constexpr double kFlat = 25;
 /// A place fits if what is left of the squared difference is at most this part of the block's own contrast.
 constexpr double kFits = 0.1;
-/// Places whose squared differences are so near are alike.
-constexpr double kAlike = 1.02;
 
 class Shifts {
  public:
@@ -41,7 +39,7 @@ class Shifts {
     int bestX = 0, bestY = 0, nearest = std::numeric_limits<int>::max();
     for (int dy = -window_; dy <= window_; ++dy)
       for (int dx = -window_; dx <= window_; ++dx)
-        if (at(dx, dy) <= kAlike * least && dx * dx + dy * dy < nearest)
+        if (at(dx, dy) <= least && dx * dx + dy * dy < nearest)
           nearest = dx * dx + dy * dy, bestX = dx, bestY = dy;
     if (least == 0 && nearest == 0) return 0;
     return std::hypot(bestX + between(bestX, [&](int d) { return at(d, bestY); }),

@@ -39,7 +39,7 @@ std::vector<double> towards(double neutral, double end) {
 constexpr double kSeenPx = 0.1;
 
 /// Where fewer of an image's blocks can be told, what is left says nothing of the image.
-constexpr double kMostTold = 0.5;
+constexpr double kLeastTold = 0.5;
 
 double median(const std::vector<double>& samples) {
   return quantileOf(samples, 0.5);
@@ -128,7 +128,7 @@ void FitFlight::completeView() {
     if (a.rgba.empty() || b.rgba.empty()) continue;
     s.flip.push_back(flip(a.rgba, b.rgba, a.width, a.height));
     const ImageShift shift = imageShift(a.rgba, b.rgba, a.width, a.height);
-    s.shiftPx.push_back(shift.told < kMostTold ? std::numeric_limits<double>::quiet_NaN() : shift.p95Px);
+    s.shiftPx.push_back(shift.told < kLeastTold ? std::numeric_limits<double>::quiet_NaN() : shift.p95Px);
   }
   neutral_.ms.push_back(taken_[0].ms), neutral_.load.push_back(taken_[0].load);
   for (Taken& t : taken_) t.seen.rgba.clear();

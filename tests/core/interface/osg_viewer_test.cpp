@@ -105,6 +105,12 @@ TEST_F(OsgViewerExample, thatFliesTooShortIsNotFitted) {
   EXPECT_EQ(ran.exitCode, 1);
   EXPECT_NE(ran.err.find("at least 20 views"), std::string::npos) << ran.err;
   EXPECT_FALSE(std::filesystem::exists(dir_ / "fit/fitted.json"));
+  std::filesystem::create_directory(dir_ / "mine");
+  writeFile(dir_ / "mine/fit.json", "{\"mine\": true}");
+  const Ran mine =
+      run(TRIMTAB_CLI " fit --profile " + kProfile + " -o " + (dir_ / "mine").string() + " -- no-such-ig");
+  EXPECT_EQ(mine.exitCode, 1);
+  EXPECT_EQ(readFile(dir_ / "mine/fit.json"), "{\"mine\": true}") << "a file of somebody else was lost";
   const Ran none =
       run(TRIMTAB_CLI " fit --profile " + kProfile + " -o " + (dir_ / "fit").string() + " -- no-such-ig");
   EXPECT_EQ(none.exitCode, 1);

@@ -63,6 +63,13 @@ TEST(ImageShift, alongAnEdgeIsNone) {
       << "every place above and below fits as well";
 }
 
+TEST(ImageShift, ofAFaintPatternTellsNothing) {
+  auto faint = image(0, 0, kAll), moved = image(1, 0, kAll);
+  for (std::vector<std::uint8_t>* rgba : {&faint, &moved})
+    for (std::uint8_t& value : *rgba) value = static_cast<std::uint8_t>(120 + value / 32);
+  EXPECT_EQ(imageShift(faint, moved, kWidth, kHeight).blocks, 0) << "what fits is the rounding";
+}
+
 TEST(ImageShift, ofFlatOrForeignImagesTellsNothing) {
   const std::vector<std::uint8_t> flat(std::size_t{4} * kWidth * kHeight, 90);
   EXPECT_EQ(imageShift(flat, flat, kWidth, kHeight).blocks, 0);

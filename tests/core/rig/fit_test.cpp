@@ -130,6 +130,27 @@ TEST(FitFlight, readsPixelsFromImages) {
   EXPECT_EQ(pointAt(fit, "far_distance", 20000).flip, 0) << "the planted image does not show it";
 }
 
+TEST(FitFlight, readsNoPixelsWhereNothingMovesOrMostChangesItsColours) {
+  // Images show the pattern at rest; where the LOD scale is large, a part of them in other colours.
+  for (const double changed : {0.0, 0.7}) {
+    FitFlight flight(viewer());
+    while (flight.views() < kFewestFitViews) {
+      FrameRequest r = Planted().request();
+      flight.setLevers(r);
+      std::vector<std::uint8_t> image = Planted::image(r.levers.drawn.lodScale > 1 && changed > 0 ? 3 : 0);
+      const auto from = static_cast<std::size_t>((1 - changed) * static_cast<double>(image.size()));
+      if (r.levers.drawn.lodScale > 1)
+        for (std::size_t i = from; i < image.size(); ++i)
+          image[i] = static_cast<std::uint8_t>(255 - image[i]);
+      flight.picture(image, kWidth, kHeight);
+      FrameCost cost;
+      cost.total = 10;
+      flight.finished(r, cost, 1000);
+    }
+    EXPECT_TRUE(std::isnan(flight.result()->neutralPx)) << changed;
+  }
+}
+
 TEST(FitFlight, refusesWhatSaysNothing) {
   FitFlight few(viewer());
   Planted().fly(few, kFewestFitViews - 1, false);

@@ -104,7 +104,7 @@ trimtab_status trimtab_profile_lever(const trimtab_profile* profile, size_t i, t
 trimtab_status trimtab_fit_load(const char* file, trimtab_fit** fit, trimtab_findings** findings);
 void trimtab_fit_free(trimtab_fit* fit);
 
-/* Makes another preset that decides nothing which the profile's image generator lacks and, if `fit` is not
+/* Makes another preset that decides nothing for which the profile's image generator has no lever and, if `fit` is not
  * null, whose terms lie over the load of this image generator. The findings are notes that name each change;
  * a fit of another image generator is refused. */
 trimtab_status trimtab_preset_adapt(const trimtab_preset* preset, const trimtab_profile* profile,

@@ -1,5 +1,5 @@
 // An image generator of osgViewer that follows a preset, over any geocentric scene that osgDB reads
-// (osgdem's, TerraPage's). Trimtab sets its LOD scale and its far distance, which osg_viewer.json tells of; a
+// (osgdem's, TerraPage's). Trimtab sets its LOD scale and its far distance; osg_viewer.json is its profile. A
 // budget holds by the triangles that OSG's statistics count, the sooner if a fit has been flown:
 //
 //     c++ -std=c++17 osg_viewer.cpp $(pkg-config --cflags --libs openscenegraph trimtab) -o osg_viewer
