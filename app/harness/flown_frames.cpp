@@ -71,8 +71,23 @@ std::vector<bool> drawnRows(const Flying& flying, const Flight& flight, const Fe
   return drawn;
 }
 
-std::size_t flightsOf(const Flying& flying, const Feedback& feedback, bool holds) {
-  return (feedback.times ? std::max<std::size_t>(flying.repeats, 1) : 1) + (holds ? 1 : 0);
+std::size_t flightsOf(const Flying& flying, const Feedback& feedback) {
+  return feedback.times ? std::max<std::size_t>(flying.repeats, 1) : 1;
+}
+
+/// The rows up to which a cost model learns this machine: some of those to measure, over the whole flight.
+std::vector<std::size_t> rowsToLearn(const std::vector<std::size_t>& rows) {
+  constexpr std::size_t kEnough = 8;
+  const std::size_t every = std::max<std::size_t>(rows.size() / kEnough, 1);
+  std::vector<std::size_t> learnt;
+  for (std::size_t i = 0; i < rows.size(); i += every) learnt.push_back(rows[i]);
+  return learnt;
+}
+
+std::vector<FlownFrame> framesOf(const Flight& flight, const std::vector<std::size_t>& rows) {
+  std::vector<FlownFrame> frames;
+  for (const std::size_t row : rows) frames.push_back({row, flight.states[row].time, 0, {}});
+  return frames;
 }
 
 /// One flight of a preset, in a session of its own.
@@ -184,24 +199,27 @@ std::vector<std::size_t> sampledRows(const Flight& flight, const terrain::Databa
 std::size_t imagesToFly(const Flying& flying, const Flight& flight, const ValidatedParameters& parameters,
                         const std::vector<std::size_t>& rows) {
   const Feedback feedback = feedbackOf(parameters);
-  const std::vector<bool> drawn = drawnRows(flying, flight, feedback, rows);
-  return static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), true)) *
-         flightsOf(flying, feedback, parameters->hold.enabled);
+  const auto images = [&](const std::vector<std::size_t>& upTo) {
+    const std::vector<bool> drawn = drawnRows(flying, flight, feedback, upTo);
+    return static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), true));
+  };
+  return images(rows) * flightsOf(flying, feedback) +
+         (parameters->hold.enabled ? images(rowsToLearn(rows)) : 0);
 }
 
 std::optional<std::vector<FlownFrame>> flyFrames(experiment::Stage& stage, const Flying& flying,
                                                  const Flight& flight, const ValidatedParameters& parameters,
                                                  const std::vector<std::size_t>& rows) {
-  std::vector<FlownFrame> frames;
-  for (const std::size_t row : rows) frames.push_back({row, flight.states[row].time, 0, {}});
+  std::vector<FlownFrame> frames = framesOf(flight, rows);
   CostModel model;
   if (parameters->hold.enabled) {
-    std::vector<FlownFrame> ignored = frames;
+    const std::vector<std::size_t> learnt = rowsToLearn(rows);
+    std::vector<FlownFrame> ignored = framesOf(flight, learnt);
     Pilot pilot(stage, flying, parameters, model);
-    if (!pilot.fly(flight, rows, ignored)) return std::nullopt;
+    if (!pilot.fly(flight, learnt, ignored)) return std::nullopt;
     model = pilot.model();
   }
-  const std::size_t flights = flightsOf(flying, feedbackOf(parameters), false);
+  const std::size_t flights = flightsOf(flying, feedbackOf(parameters));
   for (std::size_t i = 0; i < flights; ++i)
     if (!Pilot(stage, flying, parameters, model).fly(flight, rows, frames)) return std::nullopt;
   return frames;

@@ -66,9 +66,9 @@ std::size_t imagesToFly(const Flying& flying, const Flight& flight, const Valida
 /// which must ascend. Time comes from the rows, never from a clock. If the preset has feedback, images are
 /// drawn on `stage` and their triangles and times are given to the session: as long before each row as they
 /// may have an effect on it, or all with Flying::whole. If decisions depend on time, images are drawn as in
-/// flight, otherwise reproducibly. A preset that holds the budget flies once more before the others, so that
-/// its cost model has learned this machine; then all flights begin with the same model. Returns nothing if it
-/// was stopped.
+/// flight, otherwise reproducibly. A preset that holds the budget flies to some of the rows
+/// before, so that its cost model has learned this machine; then all flights begin with the same model.
+/// Returns nothing if it was stopped.
 std::optional<std::vector<FlownFrame>> flyFrames(experiment::Stage& stage, const Flying& flying,
                                                  const Flight& flight, const ValidatedParameters& parameters,
                                                  const std::vector<std::size_t>& rows);

@@ -321,7 +321,8 @@ Result<Results> Run::all() {
         "between their times are noise.");
   Findings failed;
   for (const auto& flight : plan_.flights) {
-    rows_.push_back(sampledRows(flight.flight, *plan_.terrain, plan_.frames));
+    rows_.push_back(plan_.rows.empty() ? sampledRows(flight.flight, *plan_.terrain, plan_.frames)
+                                       : plan_.rows[rows_.size()]);
     if (rows_.back().empty())
       failed.push_back({Severity::error, flight.name, "", "a flight over the terrain " + plan_.terrainName,
                         "none of its " + std::to_string(flight.flight.states.size()) + " rows lies over it"});
@@ -365,6 +366,8 @@ Findings faultsOf(const Plan& plan) {
   need(!plan.presets.empty(), "presets", "at least one", "none");
   need(!plan.cases.empty(), "cases", "at least one", "none");
   need(plan.frames > 0, "frames", "at least one", "0");
+  need(plan.rows.empty() || plan.rows.size() == plan.flights.size(), "rows", "those of each flight",
+       std::to_string(plan.rows.size()) + " lists");
   need(plan.repeats > 0, "repeats", "at least one", "0");
   need(plan.widthPx > 0 && plan.heightPx > 0, "size", "pixels both ways",
        std::to_string(plan.widthPx) + "x" + std::to_string(plan.heightPx));

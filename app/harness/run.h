@@ -30,6 +30,8 @@ struct Plan {
   std::vector<CullingCase> cases{CullingCase::none, CullingCase::view_frustum, CullingCase::proposed};
   int widthPx = 1280, heightPx = 720;
   std::size_t frames = 60;  ///< of each flight, evenly spread over its rows above the terrain
+  /// The rows to measure instead, ascending, of each flight; empty: those of `frames`.
+  std::vector<std::vector<std::size_t>> rows;
   std::size_t repeats = 5;  ///< timed draws of a frame
   /// Presets whose decisions depend on their own images draw every row of a flight, instead of those rows
   /// that may have an effect on a sampled frame.

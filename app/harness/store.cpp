@@ -16,6 +16,15 @@ namespace fs = std::filesystem;
 constexpr const char* kPlanFile = "plan.json";
 constexpr const char* kParts = "parts";
 
+std::string rowsText(const std::vector<std::vector<std::size_t>>& rows) {
+  std::string text = "rows";
+  for (const auto& ofFlight : rows) {
+    for (const std::size_t row : ofFlight) text += ' ' + std::to_string(row);
+    text += ';';
+  }
+  return text;
+}
+
 /// Returns what a folder's measurements depend on.
 PlanLines identity(const Plan& plan, const std::string& machine) {
   const terrain::TerrainInfo& info = plan.terrain->info();
@@ -36,7 +45,7 @@ PlanLines identity(const Plan& plan, const std::string& machine) {
       {"presets", planText(plan.presets)},
       {"cases", cases},
       {"size", std::to_string(plan.widthPx) + "x" + std::to_string(plan.heightPx)},
-      {"frames", std::to_string(plan.frames)},
+      {"frames", plan.rows.empty() ? std::to_string(plan.frames) : rowsText(plan.rows)},
       {"repeats", std::to_string(plan.repeats)},
       {"whole", plan.whole ? "every row drawn" : "rows drawn before sampled frames"},
       {"worst", std::to_string(plan.worst)},

@@ -31,12 +31,13 @@ std::size_t within(std::span<const Candidate> front, std::size_t objective, doub
 
 }  // namespace
 
-Objectives Judge::of(const ValidatedParameters& parameters) const {
+Objectives Judge::of(const ValidatedParameters& parameters, std::span<const Missed> missed) const {
   Objectives objectives{0, 0};
-  for (const FlightModel& model : models_) {
-    const Estimate estimate = model.estimate(parameters);
-    objectives[0] = std::max(objectives[0], timeOf(estimate, plan_.time));
-    objectives[1] += estimate.flip / static_cast<double>(models_.size());
+  for (std::size_t i = 0; i < models_.size(); ++i) {
+    const Estimate estimate = models_[i].estimate(parameters);
+    const Missed off = missed.empty() ? Missed{} : missed[i];
+    objectives[0] = std::max(objectives[0], timeOf(estimate, plan_.time) * off.time);
+    objectives[1] += estimate.flip * off.error / static_cast<double>(models_.size());
   }
   return objectives;
 }
@@ -57,23 +58,20 @@ double Judge::merit(const Objectives& objectives) const {
 }
 
 std::vector<Candidate> chosen(const Plan& plan, std::span<const Candidate> front, std::size_t count,
-                              double stretch) {
+                              double low, double high) {
   std::set<std::size_t> numbers;
   count = std::min(count, front.size());
   if (count == 0) return {};
-  const std::size_t limited = plan.maxError ? 1 : 0;
-  if (const std::optional<double> limit = plan.maxError ? plan.maxError : plan.budgetMs) {
-    // Estimates miss by some per cent, so presets on both sides of the limit are drawn, more inside it.
-    constexpr double kAt[] = {0.97, 0.9, 0.8, 1.05, 0.65, 0.5};
-    for (const double part : kAt)
-      if (numbers.size() < count) numbers.insert(within(front, limited, *limit * stretch * part));
-    // Where the front is sparse, several of these are one: the nearest others make up for them.
-    for (std::size_t next = *numbers.begin(); numbers.size() < count && next-- > 0;) numbers.insert(next);
-    for (std::size_t next = 0; numbers.size() < count; ++next) numbers.insert(next);
-  } else {
-    for (std::size_t k = 0; k < count; ++k)
-      numbers.insert(count == 1 ? front.size() / 2 : k * (front.size() - 1) / (count - 1));
+  const double last = static_cast<double>(std::max<std::size_t>(count - 1, 1));
+  const std::optional<double> limit = plan.maxError ? plan.maxError : plan.budgetMs;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double part = count == 1 ? 0.5 : static_cast<double>(k) / last;
+    numbers.insert(limit ? within(front, plan.maxError ? 1 : 0, *limit * std::lerp(low, high, part))
+                         : static_cast<std::size_t>(part * static_cast<double>(front.size() - 1)));
   }
+  // Where the front is sparse, several of these are one: their neighbours make up for them.
+  for (std::size_t next = *numbers.begin(); numbers.size() < count && next-- > 0;) numbers.insert(next);
+  for (std::size_t next = 0; numbers.size() < count; ++next) numbers.insert(next);
   std::vector<Candidate> presets;
   for (const std::size_t number : numbers) presets.push_back(front[number]);
   return presets;

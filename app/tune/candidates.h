@@ -6,6 +6,7 @@
 #include "flight_model.h"
 #include "search.h"
 #include "search_space.h"
+#include "tried.h"
 #include "tune.h"
 
 /// Chooses presets by their estimates.
@@ -20,7 +21,8 @@ class Judge {
   /// Returns the time of the flight that takes longest, milliseconds, and the mean FLIP of all; infinite if
   /// the preset breaks a rule.
   Objectives operator()(std::span<const double> place) const;
-  Objectives of(const ValidatedParameters& parameters) const;
+  /// `missed`, if it is given, corrects the estimates of each flight.
+  Objectives of(const ValidatedParameters& parameters, std::span<const Missed> missed = {}) const;
   /// Orders what was judged by what the plan asks for: least error within the budget, least time within the
   /// error. What breaks the limit is worse than all that does not.
   double merit(const Objectives& objectives) const;
@@ -31,10 +33,10 @@ class Judge {
   std::span<const FlightModel> models_;
 };
 
-/// Returns presets along a front to draw, `count` or as many as there are: around what the plan asks for, or
-/// without a limit evenly along the front. `stretch` multiplies the limit.
+/// Returns presets along a front, `count` or as many as there are: evenly from `low` to `high` times the
+/// limit of the plan, without a limit evenly along the front.
 std::vector<Candidate> chosen(const Plan& plan, std::span<const Candidate> front, std::size_t count,
-                              double stretch);
+                              double low, double high);
 
 /// Puts back to the start each number of a place whose moving wins nothing by the estimate.
 Candidate simplified(const Judge& judge, std::span<const double> start, Candidate candidate);

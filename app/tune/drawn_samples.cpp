@@ -92,6 +92,11 @@ void drawLosses(experiment::Stage& stage, const FrameRequest& request, DrawnRow&
   const FrameRequest rest = small(atRest(request));
   const std::vector<std::uint8_t> reference = stage.pixels(scene::referenceOf(rest));
   const FrameResult finest = stage.draw(rest);
+  const auto lost = [&] {
+    return flip(reference, stage.shown(), rest.view.widthPx, rest.view.heightPx, {},
+                kSmall * kFlipPixelsPerDegree);
+  };
+  row.flipAtRest = lost();
   for (auto* kept : {&row.smallKept, &row.objectsKept, &row.airKept, &row.smallInstances, &row.farInstances})
     kept->fill(1);
   row.instances = static_cast<double>(finest.objects.drawn);
@@ -125,8 +130,7 @@ void drawLosses(experiment::Stage& stage, const FrameRequest& request, DrawnRow&
       if (kept && all > 0) (*kept)[step] = trianglesOf(drawn, loss) / all;
       if (instances && row.instances > 0)
         (*instances)[step] = static_cast<double>(drawn.objects.drawn) / row.instances;
-      row.flip[l][step] = flip(reference, stage.shown(), rest.view.widthPx, rest.view.heightPx, {},
-                               kSmall * kFlipPixelsPerDegree);
+      row.flip[l][step] = std::max(lost() - row.flipAtRest, 0.0);
     }
   }
 }
@@ -203,6 +207,7 @@ std::optional<DrawnSamples> drawSamples(experiment::Stage& stage, std::span<cons
   for (std::size_t r = 0; r < rows.size(); ++r) {
     DrawnRow row;
     row.row = rows[r].row;
+    row.groundMpx = rows[r].groundMpx;
     compareCounts(rows[r], of(r), row);
     drawLosses(stage, rows[r].request, row);
     samples.rows.push_back(row);
@@ -215,6 +220,8 @@ std::string toJson(const DrawnSamples& samples) {
   Json rows = Json::array(), images = Json::array();
   for (const DrawnRow& row : samples.rows)
     rows.push_back({{"row", row.row},
+                    {"ground_mpx", row.groundMpx},
+                    {"flip_at_rest", row.flipAtRest},
                     {"drawn_hidden", row.drawnHidden},
                     {"drawn_open", row.drawnOpen},
                     {"flip", row.flip},
@@ -245,6 +252,8 @@ Result<DrawnSamples> parseSamples(std::string_view json, const std::string& wher
     for (const Json& r : document.at("rows")) {
       DrawnRow row;
       row.row = r.at("row");
+      row.groundMpx = r.at("ground_mpx");
+      row.flipAtRest = r.at("flip_at_rest");
       row.drawnHidden = r.at("drawn_hidden");
       row.drawnOpen = r.at("drawn_open");
       row.flip = r.at("flip").get<decltype(row.flip)>();

@@ -44,10 +44,13 @@ inline constexpr std::array<std::array<double, kLossSteps>, kLosses> kLossValues
 
 /// What one row of a flight showed.
 struct DrawnRow {
-  std::size_t row = 0;  ///< of the flight
+  std::size_t row = 0;   ///< of the flight
+  double groundMpx = 0;  ///< millions of pixels that show ground
   /// Triangles drawn over triangles counted, while hidden ground is looked for and while it is not.
   double drawnHidden = 1, drawnOpen = 1;
-  std::array<std::array<double, kLossSteps>, kLosses> flip{};  ///< mean FLIP; 0 where a lever does nothing
+  double flipAtRest = 0;  ///< mean FLIP of the image with every lever at rest
+  /// What a lever adds to that; 0 where it does nothing.
+  std::array<std::array<double, kLossSteps>, kLosses> flip{};
   /// The part of the triangles that a value leaves: of objects for small_feature and object_distance, of all
   /// for far_distance.
   std::array<double, kLossSteps> smallKept{}, objectsKept{}, airKept{};

@@ -31,7 +31,8 @@ struct Row {
   // From the drawn rows before and after it.
   double drawnHidden = 1, drawnOpen = 1;
   double costs = 1;  ///< over the fitted cost
-  std::array<Steps, kLosses> flip{};
+  double flipAtRest = 0;
+  std::array<Steps, kLosses> flip{};  ///< that a lever adds
   Steps smallKept{}, objectsKept{}, airKept{}, smallInstances{}, farInstances{};
   double instances = 0;
 };
@@ -201,6 +202,7 @@ struct FlightModel::Impl {
 FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameLevers& levers,
                                                     const FrameDecision& decision, Places& places) const {
   Image image;
+  image.flip = row.flipAtRest;
   const double groundPx = levers.errorPx * levers.lodScale, objectPx = levers.objectErrorPx * levers.lodScale;
   const auto lose = [&](Loss loss, double value) {
     image.flip += places.of(loss, value).in(row.flip[static_cast<std::size_t>(loss)], 0);
@@ -355,7 +357,15 @@ void FlightModel::learn(const DrawnSamples& samples) {
     row.costs = std::lerp(costs[at.before], costs[at.after], at.part);
     row.drawnHidden = std::lerp(a.drawnHidden, b.drawnHidden, at.part);
     row.drawnOpen = std::lerp(a.drawnOpen, b.drawnOpen, at.part);
-    for (std::size_t l = 0; l < kLosses; ++l) mix(a.flip[l], b.flip[l], at.part, row.flip[l]);
+    // Where little ground is in the image, little of it is seen to be coarse.
+    const double sampled = std::lerp(a.groundMpx, b.groundMpx, at.part);
+    const double ground = sampled > 0 ? row.groundMpx / sampled : 0;
+    row.flipAtRest = std::lerp(a.flipAtRest, b.flipAtRest, at.part) * ground;
+    for (std::size_t l = 0; l < kLosses; ++l) {
+      mix(a.flip[l], b.flip[l], at.part, row.flip[l]);
+      if (static_cast<Loss>(l) == Loss::particles) continue;
+      for (float& flip : row.flip[l]) flip *= static_cast<float>(ground);
+    }
     mix(a.smallKept, b.smallKept, at.part, row.smallKept);
     mix(a.objectsKept, b.objectsKept, at.part, row.objectsKept);
     mix(a.airKept, b.airKept, at.part, row.airKept);
@@ -394,7 +404,7 @@ void FlightModel::Impl::fly(const ValidatedParameters& parameters) {
   flownWith = *parameters;
 }
 
-Estimate FlightModel::estimate(const ValidatedParameters& parameters) const {
+Estimate FlightModel::estimate(const ValidatedParameters& parameters, std::vector<RowEstimate>* rows) const {
   impl_->fly(parameters);
   const CompiledPolicy* const policy = parameters.policy();
   const double budgetMs = parameters->measure.budget.value();
@@ -427,6 +437,7 @@ Estimate FlightModel::estimate(const ValidatedParameters& parameters) const {
     ms.push_back(image.ms);
     sumMs += image.ms;
     flip += image.flip;
+    if (rows != nullptr) rows->push_back({row.row, image.ms, image.flip});
   }
   if (ms.empty()) return {};
   const double count = static_cast<double>(ms.size());

@@ -21,6 +21,12 @@ struct Estimate {
   double flip = 0;  ///< mean of the rows
 };
 
+/// The same of one row.
+struct RowEstimate {
+  std::size_t row = 0;  ///< of the flight
+  double ms = 0, flip = 0;
+};
+
 /// Knows of every row of a flight what each allowed error would draw, counted once in the terrain's index,
 /// and from a few drawn rows what triangles and pixels cost and what each lever loses. A preset's decisions
 /// are those of a session, row by row; load and triangles that its rules ask for, and the budget that it
@@ -48,8 +54,8 @@ class FlightModel {
   void learn(const DrawnSamples& samples);
 
   /// Estimates a preset. Call it after learn(), and from one thread at a time: decisions that the last preset
-  /// shares are kept.
-  Estimate estimate(const ValidatedParameters& parameters) const;
+  /// shares are kept. Those rows that lie above the terrain are appended to `rows`, if it is given.
+  Estimate estimate(const ValidatedParameters& parameters, std::vector<RowEstimate>* rows = nullptr) const;
 
   /// Returns what an image takes of which nothing is ground, milliseconds, in the row where it takes most.
   double emptyMs() const;

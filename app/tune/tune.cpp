@@ -9,6 +9,7 @@
 #include "candidates.h"
 #include "run_folder.h"
 #include "search_space.h"
+#include "tried.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/scene/load_index.h"
 #include "trimtab/units/not_finite.h"
@@ -22,10 +23,10 @@ using Clock = std::chrono::steady_clock;
 
 /// How much of a run's time its steps take, for its progress.
 constexpr double kSamplesPart = 0.2, kSearchPart = 0.3, kTriedPart = 0.45;
-/// So much is drawn of presets to try them out.
-constexpr std::size_t kTriedFrames = 8, kTriedRepeats = 2;
-/// Estimates that miss by less than this part are right enough for the first presets that are drawn.
-constexpr double kRightEnough = 0.03;
+/// So many presets are tried out for each that is measured, and so much of them is drawn.
+constexpr std::size_t kTriedForOne = 2, kTriedFrames = 8, kTriedRepeats = 2;
+/// Estimates miss by up to a third, so presets so far from the limit are tried out; corrected ones by less.
+constexpr double kTriedFrom = 0.7, kTriedTo = 1.3, kMeasuredFrom = 0.8, kMeasuredTo = 1.05;
 
 Finding fault(const char* what, std::string expected, std::string found) {
   return {Severity::error, what, "", std::move(expected), std::move(found)};
@@ -33,6 +34,11 @@ Finding fault(const char* what, std::string expected, std::string found) {
 
 double secondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::string rangeText(const std::vector<double>& values) {
+  const auto [least, most] = std::ranges::minmax(values);
+  return numberText(least, 3) + " to " + numberText(most, 3);
 }
 
 /// Returns parameters with the budget of the plan, which they hold and load is counted in.
@@ -74,10 +80,10 @@ class Run {
     if (Findings failed = emptyFrame(); !failed.empty()) return failed;
     if (Findings failed = searchAll(); !failed.empty()) return failed;
     if (!missing_.empty()) return partDone("then presets are tried out");
-    addOthers();
-    addFound(chosen(plan_, front_, plan_.points, 1));
     if (Findings failed = tryOut(); !failed.empty()) return failed;
     if (!missing_.empty()) return partDone("then presets are measured");
+    addOthers();
+    addFound();
     if (Findings failed = measureAll(); !failed.empty()) return failed;
     if (!missing_.empty()) return partDone("the last part, or a run without one, joins them");
     findIdle();
@@ -116,9 +122,9 @@ class Run {
   void addOthers();
   void findIdle();
   void add(const std::string& name, Role role, const ValidatedParameters& parameters);
-  void addFound(std::vector<Candidate> candidates);
-  Result<harness::Results> draw(std::span<const Tuned* const> presets, std::size_t frames,
-                                std::size_t repeats, const std::string& folder, double from, double to) const;
+  void addFound();
+  harness::Plan drawing() const;
+  Result<harness::Results> draw(harness::Plan plan, const std::string& folder, double from, double to) const;
   Findings tryOut();
   Findings measureAll();
   Findings writePresets() const;
@@ -129,7 +135,7 @@ class Run {
   const SearchSpace& space_;
   std::vector<FlightModel> models_;  ///< by flight, those that the search sees first
   std::string missing_;              ///< what other parts have not done yet; empty: nothing
-  std::vector<Candidate> front_;
+  std::vector<Candidate> front_;     ///< by the estimates, and once presets were tried out, of those
   Outcome outcome_;
 };
 
@@ -227,21 +233,11 @@ void Run::add(const std::string& name, Role role, const ValidatedParameters& par
   outcome_.presets.push_back(std::move(preset));
 }
 
-void Run::addFound(std::vector<Candidate> candidates) {
-  const Judge judge(plan_, space_, seen());
-  const std::vector<double> start = space_.placeOf(*plan_.start);
+void Run::addFound() {
   std::size_t number = 0;
-  for (const Tuned& preset : outcome_.presets) number += preset.role == Role::found;
-  for (Candidate& candidate : candidates) {
-    candidate = simplified(judge, start, std::move(candidate));
-    const Result<ValidatedParameters> valid = validate(space_.at(candidate.place));
-    if (!valid) continue;
-    const bool known =
-        std::any_of(outcome_.presets.begin(), outcome_.presets.end(), [&](const Tuned& preset) {
-          return differences(*preset.parameters, *withBudgetOf(plan_, *valid)).empty();
-        });
-    if (!known) add("tuned-" + std::to_string(++number), Role::found, *valid);
-  }
+  for (const Candidate& candidate : chosen(plan_, front_, plan_.points, kMeasuredFrom, kMeasuredTo))
+    if (const Result<ValidatedParameters> valid = validate(space_.at(candidate.place)))
+      add("tuned-" + std::to_string(++number), Role::found, *valid);
 }
 
 /// Adds what the found presets are held against: the start, the default, and what a person would try.
@@ -269,66 +265,82 @@ void Run::findIdle() {
     if (!moves[i]) outcome_.idle.push_back(space_.axes()[i].name);
 }
 
-/// Draws presets as they are flown, in turns.
-Result<harness::Results> Run::draw(std::span<const Tuned* const> presets, std::size_t frames,
-                                   std::size_t repeats, const std::string& folder, double from,
-                                   double to) const {
+/// Returns how presets are drawn: as they are flown, in turns.
+harness::Plan Run::drawing() const {
   harness::Plan plan;
   plan.terrain = plan_.terrain;
   plan.terrainName = plan_.terrainName;
-  for (std::size_t i = 0; i < flights(); ++i) plan.flights.push_back(flight(i));
-  for (const Tuned* preset : presets) plan.presets.push_back({preset->name, preset->parameters});
   plan.cases = {CullingCase::proposed};
   plan.widthPx = plan_.widthPx;
   plan.heightPx = plan_.heightPx;
-  plan.frames = frames;
-  plan.repeats = repeats;
   plan.worst = 1;
   plan.skips = false;
   plan.version = plan_.version;
   plan.part = plan_.part;
+  return plan;
+}
+
+Result<harness::Results> Run::draw(harness::Plan plan, const std::string& folder, double from,
+                                   double to) const {
   plan.progress = [this, from, to](double part, const std::string& what) {
     return goOn(from + (to - from) * part, what);
   };
   return harness::run(plan, folder_.path() / folder);
 }
 
-/// Draws a few frames of the presets that were found, and chooses others where the estimates missed: the
-/// limit is moved by what they missed by.
+/// Draws presets around the limit in the rows that tell them apart, at the full size, on which times depend.
+/// What is left of the front are these, each corrected by what its own estimate missed.
 Findings Run::tryOut() {
-  if (!plan_.budgetMs && !plan_.maxError) return {};
-  std::vector<const Tuned*> found;
-  for (const Tuned& preset : outcome_.presets)
-    if (preset.role == Role::found) found.push_back(&preset);
-  if (found.empty()) return {};
-  const auto results = draw(found, kTriedFrames, kTriedRepeats, "tried", kSearchPart, kTriedPart);
+  const Judge judge(plan_, space_, seen());
+  const std::vector<double> start = space_.placeOf(*plan_.start);
+  harness::Plan plan = drawing();
+  plan.flights = plan_.flights;
+  plan.repeats = kTriedRepeats;
+  std::vector<Candidate> tried;
+  std::vector<std::vector<std::vector<RowEstimate>>> estimates(seen().size());  // by flight and preset
+  for (const Candidate& candidate :
+       chosen(plan_, front_, kTriedForOne * plan_.points, kTriedFrom, kTriedTo)) {
+    Candidate simple = simplified(judge, start, candidate);
+    const Result<ValidatedParameters> valid = validate(space_.at(simple.place));
+    const auto isKnown = [&](const Candidate& other) { return other.place == simple.place; };
+    if (!valid || std::ranges::any_of(tried, isKnown)) continue;
+    plan.presets.push_back({"tried-" + std::to_string(tried.size() + 1), *valid});
+    tried.push_back(std::move(simple));
+    for (std::size_t i = 0; i < seen().size(); ++i) seen()[i].estimate(*valid, &estimates[i].emplace_back());
+  }
+  if (tried.empty()) return {};
+  for (const auto& ofFlight : estimates) plan.rows.push_back(rowsApart(ofFlight, kTriedFrames));
+  const auto results = draw(plan, "tried", kSearchPart, kTriedPart);
   if (!results) return results.findings();
-  if (results->units.empty()) missing_ = results->notes.front();
-  std::vector<double> ratios;
-  for (const Tuned* preset : found)
-    for (std::size_t i = 0; i < plan_.flights.size(); ++i)
-      for (const harness::Unit& unit : results->units) {
-        if (unit.name.preset != preset->name || unit.name.flight != flight(i).name) continue;
-        const harness::AnswerRow row = harness::answerRow(unit, kNan);
-        const Estimate& e = preset->estimates[i];
-        ratios.push_back(plan_.maxError ? row.flip / e.flip : row.medianMs / e.medianMs);
-      }
-  std::erase_if(ratios, [](double ratio) { return !std::isfinite(ratio) || !(ratio > 0); });
-  if (ratios.empty()) return {};
-  std::sort(ratios.begin(), ratios.end());
-  const double missed = ratios[ratios.size() / 2];
-  outcome_.notes.push_back("Where it was tried out, a found preset was drawn at " + numberText(missed, 3) +
-                           " times what was estimated (median).");
-  if (std::abs(missed - 1) < kRightEnough) return {};
-  std::erase_if(outcome_.presets, [](const Tuned& preset) { return preset.role == Role::found; });
-  addFound(chosen(plan_, front_, plan_.points, 1 / missed));
+  if (results->units.empty()) {
+    missing_ = results->notes.front();
+    return {};
+  }
+  std::vector<Candidate> corrected;
+  std::vector<double> times, errors;
+  for (std::size_t p = 0; p < tried.size(); ++p) {
+    std::vector<Missed> missed(seen().size());
+    for (const harness::Unit& unit : results->units)
+      for (std::size_t i = 0; i < seen().size(); ++i)
+        if (unit.name.preset == plan.presets[p].name && unit.name.flight == plan.flights[i].name)
+          missed[i] = missedBy(estimates[i][p], unit.frames);
+    corrected.push_back({tried[p].place, judge.of(plan.presets[p].parameters, missed)});
+    for (const Missed& m : missed) times.push_back(m.time), errors.push_back(m.error);
+  }
+  front_ = joined(std::move(corrected), {});
+  outcome_.notes.push_back("Where they were tried out, " + std::to_string(tried.size()) + " presets took " +
+                           rangeText(times) + " times what was estimated, at " + rangeText(errors) +
+                           " times the error.");
   return {};
 }
 
 Findings Run::measureAll() {
-  std::vector<const Tuned*> all;
-  for (const Tuned& preset : outcome_.presets) all.push_back(&preset);
-  const auto results = draw(all, plan_.frames, plan_.repeats, "measured", kTriedPart, 1);
+  harness::Plan plan = drawing();
+  for (std::size_t i = 0; i < flights(); ++i) plan.flights.push_back(flight(i));
+  for (const Tuned& preset : outcome_.presets) plan.presets.push_back({preset.name, preset.parameters});
+  plan.frames = plan_.frames;
+  plan.repeats = plan_.repeats;
+  const auto results = draw(std::move(plan), "measured", kTriedPart, 1);
   if (!results) return results.findings();
   if (results->units.empty()) missing_ = results->notes.front();
   outcome_.othersShare = results->othersShare;

@@ -93,6 +93,23 @@ TEST(Run, measuresEveryPresetAndCaseOnTheSameRows) {
   EXPECT_EQ(test::readFile(dir / "out" / "frames.csv"), toCsv(*results));
 }
 
+TEST(Run, measuresTheRowsThatItIsGiven) {
+  const test::ScratchDir dir;
+  Plan plan = smallPlan();
+  plan.rows = {{3, 20}};
+  const auto results = run(plan, dir / "out");
+  ASSERT_TRUE(results) << toString(results.findings());
+  ASSERT_EQ(results->units.front().frames.size(), 2u);
+  EXPECT_EQ(results->units.front().frames[0].row, 3u);
+  EXPECT_EQ(results->units.front().frames[1].row, 20u);
+  plan.rows = {{3, 21}};
+  const auto other = run(plan, dir / "out");
+  EXPECT_FALSE(other);
+  EXPECT_THAT(toString(other.findings()), testing::HasSubstr("rows 3 20"));
+  plan.rows = {{3}, {4}};
+  EXPECT_FALSE(run(plan, dir / "two")) << "of a flight that is not there";
+}
+
 TEST(Run, givesTheSameErrorsAndCountsInAnotherFolderAndWithOtherRepeats) {
   const test::ScratchDir dir;
   Plan plan = smallPlan();

@@ -103,10 +103,33 @@ TEST_F(FlightModelTest, theOrderOfPresetsIsThatOfDrawnErrors) {
     const double estimated = world().model->estimate(preset).flip;
     EXPECT_GT(drawn, drawnBefore);
     EXPECT_GT(estimated, estimatedBefore);
-    EXPECT_NEAR(estimated / drawn, 1, 0.5) << px << " px times " << scale;
+    EXPECT_NEAR(estimated / drawn, 1, 0.15) << px << " px times " << scale;
     drawnBefore = drawn, estimatedBefore = estimated;
   }
   meter.release();
+}
+
+TEST_F(FlightModelTest, whatIsLostAtRestCountsOnceAndFollowsTheGround) {
+  DrawnSamples planted = world().samples;
+  for (DrawnRow& row : planted.rows) {
+    row.flipAtRest = 0.01;
+    row.flip = {};
+  }
+  const auto lost = [&](double px) {
+    FlightModel model({land(), kWidth, kHeight}, flight(), edited([](TuningParameters&) {}), 6);
+    model.learn(planted);
+    return model
+        .estimate(edited([&](TuningParameters& p) {
+          p.lod.screenSpaceError = Pixels{px};
+          p.objects.errorPx = Pixels{px};
+        }))
+        .flip;
+  };
+  const double fine = lost(1);
+  EXPECT_NEAR(fine, 0.01, 0.004) << "by as much as the rows between show more or less ground";
+  EXPECT_EQ(lost(16), fine) << "levers add nothing to it";
+  for (DrawnRow& row : planted.rows) row.groundMpx *= 2;
+  EXPECT_NEAR(lost(1), fine / 2, 1e-9) << "half as much ground as where it was drawn";
 }
 
 TEST_F(FlightModelTest, rulesSeeTheTrianglesThatAreEstimated) {
