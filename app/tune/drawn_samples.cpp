@@ -167,6 +167,7 @@ void timeImages(experiment::Stage& stage, const SampleRow& sample, std::span<Tim
     image.instances = static_cast<double>(drawn.objects.drawn);
     image.looksForHidden = setting.looksForHidden;
     image.ms = std::min(image.ms, drawn.cost.total);
+    image.repeatsMs.push_back(drawn.cost.total);
   }
 }
 
@@ -239,7 +240,8 @@ std::string toJson(const DrawnSamples& samples) {
                       {"particles", image.load.particles},
                       {"instances", image.instances},
                       {"looks_for_hidden", image.looksForHidden},
-                      {"ms", image.ms}});
+                      {"ms", image.ms},
+                      {"repeats_ms", image.repeatsMs}});
   return Json{{"format", "trimtab-tune-samples"}, {"rows", rows}, {"images", images}}.dump(1) + '\n';
 }
 
@@ -271,7 +273,8 @@ Result<DrawnSamples> parseSamples(std::string_view json, const std::string& wher
            {i.at("triangles"), i.at("ground_mpx"), i.at("scene_mpx"), i.at("particles"), false},
            i.at("instances"),
            i.at("looks_for_hidden"),
-           i.at("ms")});
+           i.at("ms"),
+           i.at("repeats_ms")});
     return samples;
   } catch (const Json::exception&) {
     return bad;

@@ -65,7 +65,8 @@ struct TimedImage {
   FrameLoad load;
   double instances = 0;  ///< of objects
   bool looksForHidden = false;
-  double ms = 0;  ///< the quickest of its repeats: other programs only add to it
+  double ms = 0;                  ///< the quickest of its repeats: other programs only add to it
+  std::vector<double> repeatsMs;  ///< all of them, which say how far times of one image lie apart
 };
 
 struct DrawnSamples {

@@ -263,10 +263,12 @@ HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, con
     given.cost.*part *= row.costs;
   given.cost.known = true;
   // As in flight, the band is that of an image as it is likely to be drawn: with the levers of the last one.
+  // The first image follows others that stayed within the budget too.
   const HeldLevers& likely = holding.memory.begun ? holding.last : given.asked;
   const double triangles =
       trianglesAt(given.triangles, asked.errorPx, std::max(likely.errorPx, asked.errorPx));
-  const double ms = predict(given.cost, loadOf(given, likely, triangles)).total();
+  double ms = predict(given.cost, loadOf(given, likely, triangles)).total();
+  if (!holding.memory.begun) ms = std::min(ms, given.budgetMs);
   given.cost.halfBandMs = fit.p90 * ms;
   given.cost.offMs = fit.median * ms;
   return holding.last = arbitrate(given, parameters.hold, holding.memory).held;
@@ -338,13 +340,17 @@ void FlightModel::learn(const DrawnSamples& samples) {
   // What a row costs more or less than the fit, as with clouds of small objects, is the row's own.
   std::vector<double> costs(samples.rows.size(), 1.0), off;
   for (std::size_t r = 0; r < samples.rows.size(); ++r) {
-    std::vector<double> ratios;
-    for (const TimedImage& image : samples.images)
-      if (image.row == samples.rows[r].row)
-        ratios.push_back(image.ms / impl_->cost(image.load, image.instances, image.looksForHidden));
+    std::vector<double> ratios, ofRepeats;
+    for (const TimedImage& image : samples.images) {
+      if (image.row != samples.rows[r].row) continue;
+      const double fitted = impl_->cost(image.load, image.instances, image.looksForHidden);
+      ratios.push_back(image.ms / fitted);
+      for (const double ms : image.repeatsMs) ofRepeats.push_back(ms / fitted);
+    }
     if (ratios.empty()) continue;
     costs[r] = rankOf(ratios, 0.5);
-    for (const double ratio : ratios) off.push_back(std::abs(ratio / costs[r] - 1));
+    // A budget is held among times as they come, not among the quickest.
+    for (const double ratio : ofRepeats) off.push_back(std::abs(ratio / costs[r] - 1));
   }
   if (!off.empty()) impl_->fit = {rankOf(off, 0.5), rankOf(off, 0.9)};
   const auto mix = [](const auto& a, const auto& b, double part, Steps& into) {
