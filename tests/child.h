@@ -4,9 +4,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <thread>
@@ -34,20 +36,44 @@ inline bool holdsInChild(const std::function<bool()>& check) {
   return ::waitpid(child, &status, 0) == child && status == 0;
 }
 
-/// Reports whether a process has a handler for a signal, as Linux says of it.
-inline bool catches(pid_t process, int signal) {
+/// Returns what Linux says of a process after one of its words, such as "State:"; empty if it is gone.
+inline std::string statusOf(pid_t process, const std::string& word) {
   const std::string status = readFile("/proc/" + std::to_string(process) + "/status");
-  const std::size_t at = status.find("SigCgt:");
-  return at != std::string::npos &&
-         (std::stoull(status.substr(at + 7), nullptr, 16) >> (signal - 1) & 1) != 0;
+  const std::size_t at = status.find(word);
+  return at == std::string::npos ? "" : status.substr(at + word.size());
+}
+/// Reports whether a process has a handler for a signal.
+inline bool catches(pid_t process, int signal) {
+  const std::string caught = statusOf(process, "SigCgt:");
+  return !caught.empty() && (std::stoull(caught, nullptr, 16) >> (signal - 1) & 1) != 0;
+}
+inline bool isStopped(pid_t process) {
+  return statusOf(process, "State:").starts_with("\tT");
+}
+
+/// Returns the processes whose command line holds all of these.
+inline std::vector<pid_t> processesWith(const std::vector<std::string>& words) {
+  std::vector<pid_t> found;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::string line = readFile(entry.path() / "cmdline");
+    std::replace(line.begin(), line.end(), '\0', ' ');
+    if (std::all_of(words.begin(), words.end(),
+                    [&](const std::string& word) { return line.find(word) != std::string::npos; }))
+      found.push_back(std::stoi(name));
+  }
+  return found;
 }
 
 /// A program in the background, its standard error in a file.
 class Background {
  public:
-  Background(std::vector<std::string> arguments, std::filesystem::path err)
+  /// With a group of its own, as a shell starts a job, it can be paused.
+  Background(std::vector<std::string> arguments, std::filesystem::path err, bool ownGroup = false)
       : err_(std::move(err)), pid_(::fork()) {
     if (pid_ != 0) return;
+    if (ownGroup) ::setpgid(0, 0);
     if (!std::freopen(err_.c_str(), "w", stderr)) ::_exit(126);
     std::vector<char*> argv;
     for (std::string& a : arguments) argv.push_back(a.data());

@@ -3,7 +3,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "tests/support.h"
+#include "tests/app/small_run.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab {
@@ -26,16 +26,12 @@ TEST(ExperimentCommand, refusesAFolderForResultsBeforeItOpensTheTerrain) {
   }
 }
 
-TEST(ExperimentCommand, printsOneDocumentAndWritesTablesAndPlots) {
+using ExperimentRun = test::SmallRun;
+
+TEST_F(ExperimentRun, printsOneDocumentAndWritesTablesAndPlots) {
   const test::ScratchDir dir;
-  const std::string tif = (dir / "sample.tif").string(), database = (dir / "db").string();
-  ASSERT_EQ(
-      test::run(test::program("trimtab-cli").string() + " terrain sample --size-km 6 -o " + tif).exitCode, 0);
-  ASSERT_EQ(
-      test::run(test::program("trimtab-cli").string() + " terrain bake " + tif + " -o " + database).exitCode,
-      0);
   test::writeFile(dir / "file", "");
-  const test::Ran nowhere = experimentBy("culling --terrain " + database + " --size 64x48 --repeats 1 -o " +
+  const test::Ran nowhere = experimentBy("culling --terrain " + database() + " --size 64x48 --repeats 1 -o " +
                                          (dir / "file/out").string());
   EXPECT_EQ(nowhere.exitCode, 1);
   EXPECT_THAT(nowhere.err, HasSubstr("file/out: expected a folder that can be written"));
@@ -43,7 +39,7 @@ TEST(ExperimentCommand, printsOneDocumentAndWritesTablesAndPlots) {
   EXPECT_THAT(nowhere.err, ::testing::Not(HasSubstr(" % "))) << "before the work, not after it";
   const std::string out = (dir / "out").string();
   const test::Ran ran =
-      experimentBy("culling --terrain " + database + " --size 64x48 --repeats 1 --json -o " + out +
+      experimentBy("culling --terrain " + database() + " --size 64x48 --repeats 1 --json -o " + out +
                    " --set fuzzy.combination=twice_minimum");
   ASSERT_EQ(ran.exitCode, 0) << ran.err;
   const json document = json::parse(ran.out);
@@ -57,15 +53,12 @@ TEST(ExperimentCommand, printsOneDocumentAndWritesTablesAndPlots) {
     EXPECT_GT(test::readFile((dir / "out") / name).size(), 100u) << name;
 }
 
-TEST(WeatherCommand, writesTheCalibratedStepIntoAPresetUnlessItIsRejected) {
+TEST_F(ExperimentRun, writesTheCalibratedStepIntoAPresetUnlessItIsRejected) {
   const test::ScratchDir dir;
   int rejected = 0;
-  const std::string cli = test::program("trimtab-cli").string(), tif = (dir / "sample.tif").string(),
-                    database = (dir / "db").string(), preset = (dir / "tuned.json").string();
-  ASSERT_EQ(test::run(cli + " terrain sample --size-km 6 -o " + tif).exitCode, 0);
-  ASSERT_EQ(test::run(cli + " terrain bake " + tif + " -o " + database).exitCode, 0);
+  const std::string preset = (dir / "tuned.json").string();
   const std::string command =
-      cli + " weather calibrate --terrain " + database + " --size 160x90 --repeats 1 --step rain_heavy";
+      cli() + " weather calibrate --terrain " + database() + " --size 160x90 --repeats 1 --step rain_heavy";
   // A tolerance so small that no two times agree, and one within which they do unless the machine is busy.
   for (const char* tolerance : {"0.001", "0.5"}) {
     std::filesystem::remove(preset);

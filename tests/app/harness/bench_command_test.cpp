@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "app/harness/results.h"
-#include "tests/support.h"
+#include "tests/app/small_run.h"
 
 namespace trimtab::harness {
 namespace {
@@ -15,35 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-/// 6 km of terrain and a short flight over it, made once.
-class BenchCommand : public testing::Test {
+class BenchCommand : public test::SmallRun {
  protected:
-  static void SetUpTestSuite() {
-    shared_ = new test::ScratchDir;
-    const std::string tif = (*shared_ / "sample.tif").string();
-    ASSERT_EQ(test::run(cli() + " terrain sample --size-km 6 -o " + tif).exitCode, 0);
-    ASSERT_EQ(test::run(cli() + " terrain bake " + tif + " -o " + database()).exitCode, 0);
-    std::string csv = "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n";
-    for (int i = 0; i < 40; ++i)
-      csv += std::to_string(i * 0.5) + ',' + std::to_string(36.615 + i * 5e-4) + ",128.35," +
-             std::to_string(5000 + 100 * i) + ',' + std::to_string(-i * 0.3) + ",0," + std::to_string(i) +
-             '\n';
-    test::writeFile(flight(), csv);
-  }
-  static void TearDownTestSuite() { delete shared_; }
-
-  static std::string cli() { return test::program("trimtab-cli").string(); }
-  static std::string database() { return (*shared_ / "db").string(); }
-  static std::string flight() { return (*shared_ / "hop.csv").string(); }
   static std::string command(const fs::path& out, const std::string& more = "") {
     return cli() + " bench --terrain " + database() + " --flight " + flight() +
            " --preset default as-published --size 96x64 --frames 6 --repeats 1 " + more + " -o " +
            out.string();
   }
-
-  static test::ScratchDir* shared_;
 };
-test::ScratchDir* BenchCommand::shared_ = nullptr;
 
 std::string withoutTimes(const Results& results) {
   std::string text;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/app/small_run.h"
 #include "tests/child.h"
-#include "tests/support.h"
 
 /// The scripts of resources/cluster, on a real Slurm of one node and by GNU parallel, with what is killed
 /// there.
@@ -19,21 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-/// Returns the processes whose command line holds all of these.
-std::vector<pid_t> processesWith(const std::vector<std::string>& words) {
-  std::vector<pid_t> found;
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename().string();
-    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::string line = test::readFile(entry.path() / "cmdline");
-    std::replace(line.begin(), line.end(), '\0', ' ');
-    if (std::all_of(words.begin(), words.end(),
-                    [&](const std::string& word) { return line.find(word) != std::string::npos; }))
-      found.push_back(std::stoi(name));
-  }
-  return found;
-}
 
 /// A Slurm of one node below a folder, which nothing outside this machine reaches.
 class OneNodeSlurm {
@@ -79,7 +64,7 @@ class OneNodeSlurm {
   }
   ~OneNodeSlurm() {
     for (const char* daemon : {"slurmd", "slurmctld", "munged"}) kill(daemon, SIGKILL);
-    for (const pid_t left : processesWith({folder_.string()})) ::kill(left, SIGKILL);
+    for (const pid_t left : test::processesWith({folder_.string()})) ::kill(left, SIGKILL);
   }
   bool ready() const { return ready_; }
   const std::string& said() const { return said_; }
@@ -96,28 +81,16 @@ class OneNodeSlurm {
   bool ready_ = false;
 };
 
-class Cluster : public testing::Test {
+class Cluster : public test::SmallRun {
  protected:
   static void SetUpTestSuite() {
-    shared_ = new test::ScratchDir;
-    const std::string tif = (*shared_ / "sample.tif").string();
-    ASSERT_EQ(test::run(cli() + " terrain sample --size-km 6 -o " + tif).exitCode, 0);
-    ASSERT_EQ(test::run(cli() + " terrain bake " + tif + " -o " + (*shared_ / "db").string()).exitCode, 0);
-    std::string csv = "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n";
-    for (int i = 0; i < 40; ++i)
-      csv += std::to_string(i * 0.5) + ',' + std::to_string(36.615 + i * 5e-4) + ",128.35," +
-             std::to_string(4000 + 100 * i) + ',' + std::to_string(-i * 0.3) + ",0," + std::to_string(i) +
-             '\n';
-    test::writeFile(*shared_ / "hop.csv", csv);
+    SmallRun::SetUpTestSuite();
     const test::Ran single = test::run(tune(*shared_ / "single"));
     ASSERT_EQ(single.exitCode, 0) << single.err;
   }
-  static void TearDownTestSuite() { delete shared_; }
 
-  static std::string cli() { return test::program("trimtab-cli").string(); }
   static std::string tune(const fs::path& out) {
-    return cli() + " tune --terrain " + (*shared_ / "db").string() + " --flight " +
-           (*shared_ / "hop.csv").string() +
+    return cli() + " tune --terrain " + database() + " --flight " + flight() +
            " --free 'lod.*' --size 160x96 --samples 3 --frames 4 --repeats 1 --points 2 --searches 8 "
            "--max-error 0.05"
            " --evaluations 20000 -o " +
@@ -136,12 +109,10 @@ class Cluster : public testing::Test {
     }
   }
   static std::string bake(const fs::path& out) {
-    return cli() + " terrain bake " + (*shared_ / "sample.tif").string() + " --max-error-m 0 -o " +
-           out.string();
+    return cli() + " terrain bake " + elevation() + " --max-error-m 0 -o " + out.string();
   }
   static std::string bench(const fs::path& out) {
-    return cli() + " bench --terrain " + (*shared_ / "db").string() + " --flight " +
-           (*shared_ / "hop.csv").string() +
+    return cli() + " bench --terrain " + database() + " --flight " + flight() +
            " --preset default high-cruise --size 96x64 --frames 6 --repeats 1 -o " + out.string();
   }
   /// Errors and counts of a bench; times differ from run to run.
@@ -163,8 +134,8 @@ class Cluster : public testing::Test {
     EXPECT_THAT(errorsOf(benched), HasSubstr("high-cruise"));
   }
   static void killOne(const std::vector<std::string>& words) {
-    EXPECT_TRUE(test::until([&] { return !processesWith(words).empty(); })) << words.front();
-    for (const pid_t pid : processesWith(words)) ::kill(pid, SIGKILL);
+    EXPECT_TRUE(test::until([&] { return !test::processesWith(words).empty(); })) << words.front();
+    for (const pid_t pid : test::processesWith(words)) ::kill(pid, SIGKILL);
   }
   /// Waits for some rounds of processes, which a busy machine takes its time for.
   static void expectComplete(const fs::path& out) {
@@ -181,10 +152,7 @@ class Cluster : public testing::Test {
   static std::string script(const std::string& name) {
     return (test::sourceDir() / "resources/cluster" / name).string();
   }
-
-  static test::ScratchDir* shared_;
 };
-test::ScratchDir* Cluster::shared_ = nullptr;
 
 TEST_F(Cluster, slurmGivesTheSingleRunsSearchesWhateverIsKilled) {
   if (::geteuid() != 0) GTEST_SKIP() << "needs root, as which alone a private Slurm was tried";
@@ -198,7 +166,7 @@ TEST_F(Cluster, slurmGivesTheSingleRunsSearchesWhateverIsKilled) {
   ASSERT_EQ(submitted.exitCode, 0) << submitted.out << submitted.err;
   killOne({"tune", "--part", out.string()});        // what a task runs
   killOne({"slurm_script", "tune", out.string()});  // a batch shell
-  EXPECT_TRUE(test::until([&] { return !processesWith({"--part", out.string()}).empty(); }));
+  EXPECT_TRUE(test::until([&] { return !test::processesWith({"--part", out.string()}).empty(); }));
   slurm.kill("slurmd", SIGKILL);
   EXPECT_EQ(slurm.startNode(), "");
   expectComplete(out);

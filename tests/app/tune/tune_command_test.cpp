@@ -3,8 +3,8 @@
 #include <csignal>
 #include <filesystem>
 
+#include "tests/app/small_run.h"
 #include "tests/child.h"
-#include "tests/support.h"
 
 /// `trimtab-cli tune` as a user calls it.
 namespace trimtab::tune {
@@ -13,34 +13,16 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class TuneCommand : public testing::Test {
+class TuneCommand : public test::SmallRun {
  protected:
-  static void SetUpTestSuite() {
-    shared_ = new test::ScratchDir;
-    const std::string tif = (*shared_ / "sample.tif").string();
-    ASSERT_EQ(test::run(cli() + " terrain sample --size-km 6 -o " + tif).exitCode, 0);
-    ASSERT_EQ(test::run(cli() + " terrain bake " + tif + " -o " + database()).exitCode, 0);
-    for (const int seed : {0, 1}) {
-      std::string csv = "time_s,latitude_deg,longitude_deg,altitude_ft,pitch_deg,roll_deg,heading_deg\n";
-      for (int i = 0; i < 40; ++i)
-        csv += std::to_string(i * 0.5) + ',' + std::to_string(36.615 + i * 5e-4) + ",128.35," +
-               std::to_string(4000 + 100 * i + 500 * seed) + ',' + std::to_string(-i * 0.3) + ",0," +
-               std::to_string(i + 40 * seed) + '\n';
-      test::writeFile(*shared_ / (seed == 0 ? "hop.csv" : "skip.csv"), csv);
-    }
-  }
-  static void TearDownTestSuite() { delete shared_; }
-
-  static std::string cli() { return test::program("trimtab-cli").string(); }
-  static std::string database() { return (*shared_ / "db").string(); }
   static std::vector<std::string> arguments(const fs::path& out, const std::vector<std::string>& more = {}) {
     std::vector<std::string> all{"tune",
                                  "--terrain",
                                  database(),
                                  "--flight",
-                                 (*shared_ / "hop.csv").string(),
+                                 flight(),
                                  "--hold-out",
-                                 (*shared_ / "skip.csv").string(),
+                                 flight("skip"),
                                  "--free",
                                  "lod.*",
                                  "--size",
@@ -65,10 +47,7 @@ class TuneCommand : public testing::Test {
     for (const std::string& argument : arguments(out, more)) command += " '" + argument + '\'';
     return test::run(command);
   }
-
-  static test::ScratchDir* shared_;
 };
-test::ScratchDir* TuneCommand::shared_ = nullptr;
 
 TEST_F(TuneCommand, answersInOneSentenceAndLeavesPresets) {
   const test::ScratchDir dir;
