@@ -7,6 +7,8 @@
 #include <iostream>
 #include <vector>
 
+#include "app/link/stop_signals.h"
+#include "trimtab/measure/machine_watch.h"
 #include "trimtab/preset/stop_request.h"
 
 namespace trimtab::cli {
@@ -29,8 +31,10 @@ bool stopsWhenAsked(const CLI::App& program) {
 
 std::function<bool(double, const std::string&)> progressLines() {
   using Clock = std::chrono::steady_clock;
+  holdPauses();
   return
       [last = Clock::time_point{}, said = std::string()](double fraction, const std::string& what) mutable {
+        if (pauseAsked()) unwatched(pauseIfAsked);
         const Clock::time_point now = Clock::now();
         if (what != said || now - last > std::chrono::milliseconds(500)) {
           last = now;

@@ -16,7 +16,8 @@ void stopWhenAsked(const CLI::App& command);
 bool stopsWhenAsked(const CLI::App& program);
 
 /// Returns a function that prints progress on standard error, at most a few lines per second. It returns
-/// false once the program was asked to stop.
+/// false once the program was asked to stop. From now on Ctrl+Z stops the program only in this function, so
+/// whoever times something calls it in no timed stretch.
 std::function<bool(double fraction, const std::string& what)> progressLines();
 
 }  // namespace trimtab::cli

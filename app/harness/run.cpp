@@ -106,7 +106,10 @@ bool Run::goOn() {
     what += ", " + aboutText(seconds / static_cast<double>(measured_) * static_cast<double>(work_ - done_));
   }
   const double fraction = static_cast<double>(done_) / static_cast<double>(std::max<std::size_t>(work_, 1));
+  const Clock::time_point asked = Clock::now();
   cancelled_ = !plan_.progress(fraction, what);
+  // The program may have been paused there.
+  start_ += Clock::now() - asked;
   return !cancelled_;
 }
 

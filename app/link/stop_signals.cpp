@@ -53,6 +53,13 @@ void onSignal(int number) {
   errno = before;
 }
 
+sigset_t pauseSignal() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTSTP);
+  return set;
+}
+
 }  // namespace
 
 void handleStopSignals() {
@@ -80,6 +87,24 @@ void endAtStopSignals() {
 void countStopSignals(int eventDescriptor) {
   stopEvent = eventDescriptor;
   if (stopRequested()) countUp();
+}
+
+// Blocked rather than handled: a handler's flag could be looked at just before SIGCONT, and the program would
+// stop after it for good.
+void holdPauses() {
+  const sigset_t set = pauseSignal();
+  ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
+bool pauseAsked() {
+  sigset_t waiting;
+  return ::sigpending(&waiting) == 0 && sigismember(&waiting, SIGTSTP) == 1;
+}
+
+void pauseIfAsked() {
+  const sigset_t set = pauseSignal();
+  ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+  ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
 }
 
 }  // namespace trimtab

@@ -15,4 +15,13 @@ void endAtStopSignals();
 /// to none.
 void countStopSignals(int eventDescriptor);
 
+/// From now on SIGTSTP, as Ctrl+Z sends it, waits for pauseIfAsked(): a program that stops while it times an
+/// image would count the pause. Call it before threads are made, which then hold the signal as well.
+void holdPauses();
+/// Reports whether SIGTSTP has come and waits.
+bool pauseAsked();
+/// Stops the whole program here if SIGTSTP has come, and returns once SIGCONT goes on with it. A SIGCONT that
+/// comes before takes the SIGTSTP back.
+void pauseIfAsked();
+
 }  // namespace trimtab

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -18,6 +19,9 @@ constexpr double kBusyShare = 0.1;
 /// A hundredth is told apart from so many ticks on.
 constexpr std::uint64_t kFewestTicks = 100;
 
+/// What passed in pauses: all and busy ticks.
+std::atomic<std::uint64_t> pausedAll{0}, pausedBusy{0};
+
 std::optional<ProcessorTime> processorTimeNow() {
   std::ifstream stat("/proc/stat");
   std::string line;
@@ -26,6 +30,7 @@ std::optional<ProcessorTime> processorTimeNow() {
   tms own{};
   if (now && times(&own) != static_cast<clock_t>(-1))
     now->own = static_cast<std::uint64_t>(own.tms_utime + own.tms_stime);
+  if (now) now->all -= pausedAll, now->busy -= pausedBusy;
   return now;
 }
 
@@ -65,6 +70,15 @@ MachineWatch::MachineWatch() : begin_(processorTimeNow()) {}
 double MachineWatch::othersShare() const {
   const std::optional<ProcessorTime> now = begin_ ? processorTimeNow() : std::nullopt;
   return now ? trimtab::othersShare(*begin_, *now) : kNan;
+}
+
+void unwatched(const std::function<void()>& pause) {
+  const std::optional<ProcessorTime> before = processorTimeNow();
+  pause();
+  const std::optional<ProcessorTime> after = processorTimeNow();
+  if (!before || !after) return;
+  pausedAll += after->all - before->all;
+  pausedBusy += after->busy - before->busy;
 }
 
 bool isBusy(double othersShare) {

@@ -8,6 +8,7 @@
 
 #include "app/harness/results.h"
 #include "tests/app/small_run.h"
+#include "tests/child.h"
 
 namespace trimtab::harness {
 namespace {
@@ -131,6 +132,30 @@ TEST_F(BenchCommand, stopsWhenInterruptedAndKeepsWhatIsThere) {
   for (const auto& entry : fs::recursive_directory_iterator(dir / "out"))
     EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path() << " is half a file";
   EXPECT_EQ(test::run(command(dir / "out")).exitCode, 0);
+}
+
+/// As Ctrl+Z and `fg` do it in a terminal.
+TEST_F(BenchCommand, pausesBetweenImagesSoThatNoTimeHasThePauseInIt) {
+  const test::ScratchDir dir;
+  const std::string out = (dir / "out").string();
+  test::Background bench({cli(), "bench", "--terrain", database(), "--flight", flight(), "--cases", "none",
+                          "--size", "96x64", "--frames", "20", "--repeats", "1", "-o", out},
+                         dir / "err", true);
+  ASSERT_TRUE(test::until([&] { return !partsOf(out).empty(); })) << bench.err();
+  for (int i = 0; i < 3; ++i) {
+    ::kill(bench.pid(), SIGTSTP);
+    ASSERT_TRUE(test::until([&] { return test::isStopped(bench.pid()); })) << bench.err();
+    const auto before = partsOf(out);
+    ASSERT_LT(before.size(), 20u) << "it was done before it could be paused";
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    EXPECT_EQ(partsOf(out), before);
+    ::kill(bench.pid(), SIGCONT);
+    ASSERT_TRUE(test::until([&] { return partsOf(out).size() > before.size(); })) << bench.err();
+  }
+  EXPECT_EQ(bench.end(), 0);
+  const auto results = parseResults(test::readFile(dir / "out" / "results.json"), "results");
+  ASSERT_TRUE(results) << toString(results.findings());
+  for (const MeasuredFrame& frame : results->units.front().frames) EXPECT_LT(frame.cost.total, 1000);
 }
 
 /// A limit on the size of files stands in for a disk that fills up while the results are written.

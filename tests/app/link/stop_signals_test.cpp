@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <functional>
+#include <thread>
 
 #include "tests/support.h"
 #include "trimtab/preset/stop_request.h"
@@ -99,6 +100,39 @@ TEST(StopSignals, leaveAloneWhatNohupIgnores) {
               return 0;
             }),
             0);
+}
+
+/// A program in a group of its own, as a shell starts one: a group without a shell cannot be paused.
+pid_t inItsGroup(const std::function<int()>& program) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setpgid(0, 0);
+    ::_exit(program());
+  }
+  ::setpgid(child, child);
+  return child;
+}
+
+TEST(StopSignals, pauseTheProgramOnlyWhereItLetsThem) {
+  const pid_t child = inItsGroup([] {
+    holdPauses();
+    std::thread([] { ::kill(::getpid(), SIGTSTP); }).join();
+    if (!pauseAsked()) return 1;
+    pauseIfAsked();
+    if (pauseAsked()) return 2;
+    // SIGCONT takes back what has not stopped it yet.
+    ::kill(::getpid(), SIGTSTP);
+    ::kill(::getpid(), SIGCONT);
+    if (pauseAsked()) return 3;
+    pauseIfAsked();
+    return 0;
+  });
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, WUNTRACED), child);
+  ASSERT_TRUE(WIFSTOPPED(status)) << status;
+  ::kill(child, SIGCONT);
+  ASSERT_EQ(::waitpid(child, &status, WUNTRACED), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
 }
 
 TEST(StopSignals, areHandledBeforeAnythingElseInEveryProgram) {

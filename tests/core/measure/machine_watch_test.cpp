@@ -79,6 +79,12 @@ TEST(MachineWatch, seesAnotherProgramAtWork) {
   EXPECT_TRUE(isBusy(share)) << share;
 }
 
+TEST(MachineWatch, countsNoPause) {
+  const MachineWatch watch;
+  unwatched([] { std::this_thread::sleep_for(kLong); });
+  EXPECT_TRUE(std::isnan(watch.othersShare())) << "too little of its time has passed";
+}
+
 TEST(MachineWatch, doesNotTakeTheWorkOfThisProgramForThatOfOthers) {
   const MachineWatch watch;
   double share = 0;

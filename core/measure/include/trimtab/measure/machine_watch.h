@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,6 +33,9 @@ class MachineWatch {
  private:
   std::optional<ProcessorTime> begin_;
 };
+
+/// Calls `pause`, in which this program measures nothing: no watch counts what others took meanwhile.
+void unwatched(const std::function<void()>& pause);
 
 /// Returns whether times that were measured meanwhile may be those of a busy machine. Unknown is not busy.
 bool isBusy(double othersShare);
