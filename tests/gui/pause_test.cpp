@@ -41,7 +41,7 @@ TEST(ViewPause, endsWithARunHoweverItEnds) {
   for (const bool cancelled : {true, false}) {
     workbench::ViewPause pause;
     workbench::ChildRun run;
-    pause.follow(run, &workbench::ChildRun::runningChanged, "an experiment runs");
+    pause.follow(run, &workbench::ChildRun::workingChanged, "an experiment runs");
     run.start({cancelled ? "terrain" : "no-such-command"});
     EXPECT_TRUE(pause.on());
     if (cancelled) run.cancel();
@@ -92,6 +92,38 @@ TEST_F(Pause, theViewStandsStillWhileLeverageIsMeasuredAndGoesOnWhenItIsCancelle
   expectPaused([&] { return page.running(); }, "leverage is measured");
   page.cancel();
   ASSERT_TRUE(waitFor([&] { return !page.running(); }));
+  expectGoesOn();
+}
+
+TEST_F(Pause, theViewGoesOnWhileAMeasurementIsPaused) {
+  const ScratchDir dir;
+  workbench::LeveragePage& leverage = *w().panels().leverage;
+  workbench::ErrorDock& errors = w().controllers().errors->dock();
+  workbench::BenchChoice choice;
+  choice.folder = QString::fromStdString((dir / "out").string());
+  const auto tryOut = [&](QWidget& page, const workbench::ChildRun& run, const auto& start,
+                          const auto& cancel) {
+    start();
+    QPushButton* pause = nullptr;
+    for (QPushButton* button : page.findChildren<QPushButton*>())
+      if (button->text() == "&Pause") pause = button;
+    ASSERT_NE(pause, nullptr);
+    // Asked before the program can hold the signal, it stops at once.
+    for (int i = 0; i < 2; ++i) {
+      pause->click();
+      ASSERT_TRUE(waitFor([&] { return labelSays(page, "Paused"); }));
+      expectGoesOn();
+      pause->click();
+      EXPECT_TRUE(w().viewport().paused());
+      EXPECT_FALSE(labelSays(page, "Paused"));
+    }
+    cancel();
+    ASSERT_TRUE(waitFor([&] { return !run.running(); }));
+  };
+  tryOut(
+      leverage, leverage.child(), [&] { leverage.run(); }, [&] { leverage.cancel(); });
+  tryOut(
+      errors, errors.child(), [&] { errors.measure(choice); }, [&] { errors.cancel(); });
   expectGoesOn();
 }
 

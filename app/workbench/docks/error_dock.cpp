@@ -24,6 +24,7 @@
 
 #include "answer_page.h"
 #include "measured_run.h"
+#include "pause_button.h"
 #include "sweep_page.h"
 #include "trimtab/preset/file_io.h"
 #include "views/model/theme.h"
@@ -168,7 +169,8 @@ void ErrorDock::arrange() {
   grid->addWidget(report_, row, 0);
   grid->addWidget(compare_, row++, 1);
   grid->addWidget(openFlight_, row++, 0, 1, 2);
-  grid->addWidget(progress_, row++, 0, 1, 2);
+  grid->addWidget(progress_, row, 0);
+  grid->addWidget(makePauseButton(child_, controls), row++, 1);
   grid->addWidget(status_, row++, 0, 1, 2);
   grid->addWidget(liveLabel_, row++, 0, 1, 2);
   grid->setRowStretch(row, 1);

@@ -59,7 +59,7 @@ FitPage::FitPage(views::Draft& draft, LeveragePage::Source source, QWidget* pare
   connect(run_, &QPushButton::clicked, this, [this] { running() ? cancel() : run(); });
   connect(open_, &QPushButton::clicked, this, &FitPage::askOpen);
   connect(use_, &QPushButton::clicked, this, &FitPage::use);
-  connect(&child_, &ChildRun::runningChanged, this, &FitPage::showRunning);
+  connect(&child_, &ChildRun::workingChanged, this, &FitPage::showRunning);
   connect(&child_, &ChildRun::ended, this, &FitPage::onEnded);
   connect(&child_, &ChildRun::said, output_, [this](const QString& text) {
     output_->moveCursor(QTextCursor::End);

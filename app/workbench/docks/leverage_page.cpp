@@ -14,6 +14,7 @@
 #include <QVBoxLayout>
 
 #include "app/experiment/leverage.h"
+#include "pause_button.h"
 #include "report_view.h"
 
 namespace trimtab::workbench {
@@ -47,6 +48,7 @@ LeveragePage::LeveragePage(Source source, QWidget* parent)
   top->addWidget(repeats_);
   top->addStretch(1);
   top->addWidget(run_);
+  top->addWidget(makePauseButton(child_, this));
   top->addWidget(save_);
 
   auto* column = new QVBoxLayout(this);

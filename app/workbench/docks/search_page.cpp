@@ -19,6 +19,7 @@
 #include <QVBoxLayout>
 
 #include "app/experiment/parse_report.h"
+#include "pause_button.h"
 #include "report_view.h"
 
 namespace trimtab::workbench {
@@ -85,6 +86,7 @@ SearchPage::SearchPage(LeveragePage::Source source, QWidget* parent)
   labelled(tr("&Estimates"), evaluations_);
   numbers->addStretch(1);
   numbers->addWidget(run_);
+  numbers->addWidget(makePauseButton(child_, this));
   numbers->addWidget(use_);
   auto* form = new QFormLayout;
   const auto addRow = [&](const QString& text, QWidget* buddy, auto* field) {

@@ -203,7 +203,7 @@ void MainWindow::connectParts() {
 
 /// Whatever measures times has the machine for itself.
 void MainWindow::connectPause() {
-  pause_.follow(controllers_.errors->dock().child(), &ChildRun::runningChanged, tr("presets are measured"));
+  pause_.follow(controllers_.errors->dock().child(), &ChildRun::workingChanged, tr("presets are measured"));
   // Comparing says so itself: it goes on and off all the time.
   pause_.follow(controllers_.errors->splitView(), &SplitView::busyChanged, {});
   connect(&pause_, &ViewPause::changed, this, &MainWindow::showPause);

@@ -113,9 +113,9 @@ void addRunPages(DockLayout& docks, Panels& panels, const Controllers& by, views
       docks.join("errors", QObject::tr("Fit"),
                  new FitPage(draft, [&inputs](const QString& folder) { return inputs.writeForFit(folder); }));
   MessagePanel* const messages = panels.messages;
-  pause.follow(panels.leverage->child(), &ChildRun::runningChanged, QObject::tr("leverage is measured"));
-  pause.follow(panels.search->child(), &ChildRun::runningChanged, QObject::tr("presets are searched"));
-  pause.follow(panels.fit->child(), &ChildRun::runningChanged, QObject::tr("an image generator is fitted"));
+  pause.follow(panels.leverage->child(), &ChildRun::workingChanged, QObject::tr("leverage is measured"));
+  pause.follow(panels.search->child(), &ChildRun::workingChanged, QObject::tr("presets are searched"));
+  pause.follow(panels.fit->child(), &ChildRun::workingChanged, QObject::tr("an image generator is fitted"));
   QObject::connect(panels.fit, &FitPage::refused, messages, &MessagePanel::add);
   QObject::connect(panels.fit, &FitPage::chosen, by.ig.get(), &IgController::take);
   QObject::connect(panels.fit, &FitPage::profileAsked, by.ig.get(), &IgController::askOpen);
