@@ -47,18 +47,27 @@ inline bool catches(pid_t process, int signal) {
   const std::string caught = statusOf(process, "SigCgt:");
   return !caught.empty() && (std::stoull(caught, nullptr, 16) >> (signal - 1) & 1) != 0;
 }
+inline pid_t parentOf(pid_t process) {
+  const std::string parent = statusOf(process, "PPid:");
+  return parent.empty() ? -1 : std::stoi(parent);
+}
 inline bool isStopped(pid_t process) {
   return statusOf(process, "State:").starts_with("\tT");
 }
 
+/// Returns the command line of a process; empty if it is gone.
+inline std::string commandOf(pid_t process) {
+  std::string line = readFile("/proc/" + std::to_string(process) + "/cmdline");
+  std::replace(line.begin(), line.end(), '\0', ' ');
+  return line;
+}
 /// Returns the processes whose command line holds all of these.
 inline std::vector<pid_t> processesWith(const std::vector<std::string>& words) {
   std::vector<pid_t> found;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
     const std::string name = entry.path().filename().string();
     if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-    std::string line = readFile(entry.path() / "cmdline");
-    std::replace(line.begin(), line.end(), '\0', ' ');
+    const std::string line = commandOf(std::stoi(name));
     if (std::all_of(words.begin(), words.end(),
                     [&](const std::string& word) { return line.find(word) != std::string::npos; }))
       found.push_back(std::stoi(name));

@@ -218,6 +218,10 @@ void ErrorsController::compare() {
   split_->setOverViewport(true);
 }
 
+void ErrorsController::compareWith(const QString& preset) {
+  if (split_->choose(SplitView::right, preset)) compare();
+}
+
 void ErrorsController::endComparison() {
   split_->setOverViewport(false);
   // A person who went to another dock or page meanwhile has arranged the docks by hand.

@@ -49,6 +49,8 @@ class ErrorsController : public QObject {
   bool openResults(const QString& file);
   /// Lets two presets draw the frame of the viewport, and raises the dock that says how they differ.
   void compare();
+  /// Does so with this preset on the right: a file, or a shipped name.
+  void compareWith(const QString& preset);
   /// Shows the viewport alone again, and puts the docks as they were before compare().
   void endComparison();
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "search_page.h"
 
+#include <QCryptographicHash>
 #include <QDir>
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -21,6 +23,7 @@
 #include "app/experiment/parse_report.h"
 #include "pause_button.h"
 #include "report_view.h"
+#include "trimtab/preset/file_io.h"
 
 namespace trimtab::workbench {
 namespace {
@@ -43,6 +46,8 @@ SearchPage::SearchPage(LeveragePage::Source source, QWidget* parent)
       choose_(new QPushButton(tr("C&hoose…"), this)),
       run_(new QPushButton(tr("&Search"), this)),
       use_(new QPushButton(tr("&Use preset"), this)),
+      compare_(new QPushButton(tr("Co&mpare"), this)),
+      save_(new QPushButton(tr("Sa&ve as…"), this)),
       progress_(new QProgressBar(this)),
       status_(new QLabel(this)),
       report_(new ReportView(tr("Found presets"), this)) {
@@ -87,7 +92,6 @@ SearchPage::SearchPage(LeveragePage::Source source, QWidget* parent)
   numbers->addStretch(1);
   numbers->addWidget(run_);
   numbers->addWidget(makePauseButton(child_, this));
-  numbers->addWidget(use_);
   auto* form = new QFormLayout;
   const auto addRow = [&](const QString& text, QWidget* buddy, auto* field) {
     auto* label = new QLabel(text, this);
@@ -97,11 +101,14 @@ SearchPage::SearchPage(LeveragePage::Source source, QWidget* parent)
   addRow(tr("&Free"), free_, free_);
   addRow(tr("He&ld out"), heldOut_, held);
   addRow(tr("&Budget"), budget_, numbers);
+  auto* results = new QHBoxLayout;
+  results->addWidget(status_, 1);
+  for (QPushButton* button : {use_, compare_, save_}) results->addWidget(button);
   auto* content = new QWidget;
   auto* column = new QVBoxLayout(content);
   column->addLayout(form);
   column->addWidget(progress_);
-  column->addWidget(status_);
+  column->addLayout(results);
   column->addWidget(report_, 1);
   // A low dock scrolls: the image keeps its half of the window.
   auto* scroll = new QScrollArea(this);
@@ -119,6 +126,8 @@ SearchPage::SearchPage(LeveragePage::Source source, QWidget* parent)
   });
   connect(run_, &QPushButton::clicked, this, [this] { running() ? cancel() : run(); });
   connect(use_, &QPushButton::clicked, this, &SearchPage::use);
+  connect(compare_, &QPushButton::clicked, this, [this] { emit comparisonAsked(found()); });
+  connect(save_, &QPushButton::clicked, this, &SearchPage::askSave);
   connect(&report_->table(), &QTableWidget::itemSelectionChanged, this, &SearchPage::rowSelected);
   connect(&report_->table(), &QTableWidget::cellDoubleClicked, this, &SearchPage::use);
   connect(&child_, &ChildRun::progressed, this, [this](int percent, const QString& what) {
@@ -172,13 +181,13 @@ void SearchPage::run() {
                         QString::number(frames_->value()),
                         QStringLiteral("--evaluations"),
                         QString::number(evaluations_->value()),
-                        QStringLiteral("--json"),
-                        QStringLiteral("-o"),
-                        folder_.filePath(QStringLiteral("search-%1").arg(++runs_))};
+                        QStringLiteral("--json")};
   if (budget_->value() > 0) arguments << QStringLiteral("--budget-ms") << QString::number(budget_->value());
   if (!heldOut_->text().trimmed().isEmpty())
     arguments << QStringLiteral("--hold-out") << heldOut_->text().trimmed();
   arguments << QStringLiteral("--free") << free_->text().split(QLatin1Char(' '), Qt::SkipEmptyParts);
+  searching_ = folderOf(arguments, *inputs);
+  arguments << QStringLiteral("-o") << searching_;
   setRunning(true);
   status_->setText(tr("Starting…"));
   child_.start(arguments);
@@ -193,7 +202,6 @@ void SearchPage::cancel() {
 void SearchPage::onEnded(const ChildRun::Ended& how) {
   setRunning(false);
   if (how.cancelled) {
-    --runs_;
     status_->setText(
         tr("Cancelled. Search goes on from what is there, unless a field changes; the earlier results are "
            "kept."));
@@ -205,7 +213,10 @@ void SearchPage::onEnded(const ChildRun::Ended& how) {
     const Result<experiment::Report> read = experiment::parseReport(
         std::string_view(how.output.constData(), std::size_t(how.output.size())), "trimtab-cli");
     findings = read ? Findings{} : read.findings();
-    if (read) report_->show(*read);
+    if (read) {
+      shown_ = searching_;
+      report_->show(*read);
+    }
   }
   if (!findings.empty()) {
     status_->setText(tr("Failed; the earlier results are kept."));
@@ -218,30 +229,56 @@ void SearchPage::onEnded(const ChildRun::Ended& how) {
   emit finished(true);
 }
 
-/// Returns the name of the preset in the selected row; empty if there is none, or if the search did not find
+/// Returns the folder of a search, one for each plan: the same search goes on there, and another does not
+/// meet it.
+QString SearchPage::folderOf(const QStringList& arguments, const ExperimentInputs& inputs) const {
+  QCryptographicHash hash(QCryptographicHash::Sha256);
+  hash.addData(arguments.join(QLatin1Char('\n')).toUtf8());
+  hash.addData(QFileInfo(inputs.terrain).lastModified().toString(Qt::ISODateWithMs).toUtf8());
+  for (const QString& name : {inputs.preset, inputs.flight, heldOut_->text().trimmed()})
+    if (QFile file(name); !name.isEmpty() && file.open(QIODevice::ReadOnly)) hash.addData(&file);
+  return folder_.filePath(QString::fromLatin1(hash.result().toHex().left(16)));
+}
+
+/// Returns the file of the preset in the selected row; empty if there is none, or if the search did not find
 /// it.
 QString SearchPage::found() const {
   const int row = report_->table().currentRow();
   if (!report() || row < 0 || row >= int(report()->measured.rows.size())) return {};
   const QString name = QString::fromStdString(report()->measured.text(std::size_t(row), "preset"));
-  return QFile::exists(fileOf(name)) ? name : QString();
-}
-
-QString SearchPage::fileOf(const QString& preset) const {
-  return folder_.filePath(QStringLiteral("search-%1/presets/%2.json").arg(runs_).arg(preset));
+  const QString file = QStringLiteral("%1/presets/%2.json").arg(shown_, name);
+  return QFile::exists(file) ? file : QString();
 }
 
 void SearchPage::rowSelected() {
-  use_->setEnabled(!found().isEmpty());
-  use_->setToolTip(found().isEmpty() ? tr("Select a row of a found preset")
-                                     : tr("Fly %1; undo takes it back").arg(found()));
+  const QString file = found(), name = QFileInfo(file).completeBaseName();
+  const auto show = [&](QPushButton* button, const QString& what) {
+    button->setEnabled(!file.isEmpty());
+    button->setToolTip(file.isEmpty() ? tr("Select a row of a found preset") : what);
+  };
+  show(use_, tr("Fly %1; undo takes it back").arg(name));
+  show(compare_,
+       tr("Draw %1 on the right of the viewport, and the preset that is flown on the left").arg(name));
+  show(save_, tr("Copy the file of %1").arg(name));
 }
 
 void SearchPage::use() {
-  const QString name = found();
-  QFile file(fileOf(name));
-  if (name.isEmpty() || !file.open(QIODevice::ReadOnly)) return;
-  emit chosen(name, QString::fromUtf8(file.readAll()));
+  QFile file(found());
+  if (found().isEmpty() || !file.open(QIODevice::ReadOnly)) return;
+  emit chosen(QFileInfo(file).completeBaseName(), QString::fromUtf8(file.readAll()));
+}
+
+void SearchPage::askSave() {
+  const QString file = QFileDialog::getSaveFileName(this, tr("Save the found preset"),
+                                                    QFileInfo(found()).fileName(), tr("Presets (*.json)"));
+  if (!file.isEmpty()) save(file);
+}
+
+void SearchPage::save(const QString& file) {
+  const Result<std::string> text = readWhole(found().toStdString());
+  const Findings failed = text ? writeAtomically(file.toStdString(), *text).findings() : text.findings();
+  if (!failed.empty()) return emit refused(tr("The preset cannot be saved: %1").arg(file), failed);
+  status_->setText(tr("Saved %1").arg(QDir::toNativeSeparators(file)));
 }
 
 }  // namespace trimtab::workbench

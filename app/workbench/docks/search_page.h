@@ -29,29 +29,34 @@ class SearchPage : public QWidget {
   const std::optional<experiment::Report>& report() const;
   /// Asks for the preset of the selected row, if it was found by the search.
   void use();
+  /// Copies the preset of the selected row to a file.
+  void save(const QString& file);
 
  signals:
   void finished(bool good);
   void refused(const QString& what, const trimtab::Findings& findings);
   /// Wants a found preset to be flown. `text` is its file.
   void chosen(const QString& name, const QString& text);
+  /// Wants a found preset beside the one that is flown.
+  void comparisonAsked(const QString& file);
 
  private:
   void onEnded(const ChildRun::Ended& how);
   void setRunning(bool running);
   void rowSelected();
+  void askSave();
   QString found() const;
-  QString fileOf(const QString& preset) const;
+  QString folderOf(const QStringList& arguments, const ExperimentInputs& inputs) const;
 
   LeveragePage::Source source_;
   ChildRun child_;
   QTemporaryDir folder_;
-  int runs_ = 0;  ///< each has a folder of its own
+  QString searching_, shown_;  ///< the folders of the search that runs, and of the presets in the table
 
   QDoubleSpinBox* budget_;
   QLineEdit *free_, *heldOut_, *size_;
   QSpinBox *frames_, *evaluations_;
-  QPushButton *choose_, *run_, *use_;
+  QPushButton *choose_, *run_, *use_, *compare_, *save_;
   QProgressBar* progress_;
   QLabel* status_;
   ReportView* report_;

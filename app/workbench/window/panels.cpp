@@ -125,6 +125,8 @@ void addRunPages(DockLayout& docks, Panels& panels, const Controllers& by, views
   });
   QObject::connect(panels.leverage, &LeveragePage::refused, messages, &MessagePanel::add);
   QObject::connect(panels.search, &SearchPage::refused, messages, &MessagePanel::add);
+  QObject::connect(panels.search, &SearchPage::comparisonAsked, by.errors.get(),
+                   &ErrorsController::compareWith);
   QObject::connect(panels.search, &SearchPage::chosen, messages,
                    [&draft, messages](const QString& name, const QString& text) {
                      const Result<Preset> preset = parsePreset(text.toStdString(), name.toStdString());
