@@ -11,22 +11,20 @@
 #include "app/harness/run.h"
 #include "app/harness/sweep.h"
 #include "app/harness/text.h"
-#include "app/link/log_options.h"
 #include "commands.h"
-#include "open_terrain.h"
 #include "progress.h"
+#include "run_options.h"
 #include "settings.h"
 #include "trimtab/measure/trace.h"
-#include "trimtab/scene/osg_database.h"
 
 namespace trimtab::cli {
 namespace {
 
-struct BenchOptions {
-  std::string terrain, origin, output, columns, cases = "none,view_frustum,proposed", size = "1280x720";
-  std::vector<std::string> flights, presets{"default"}, settings, sweeps;
+struct BenchOptions : RunOptions {
+  std::string cases = "none,view_frustum,proposed";
+  std::vector<std::string> flights, presets{"default"}, sweeps;
   std::size_t frames = 60, repeats = 5;
-  bool whole = false, json = false;
+  bool whole = false;
   PartOptions part;
 };
 
@@ -53,15 +51,6 @@ bool parseCases(const std::string& text, std::vector<CullingCase>& cases) {
   return true;
 }
 
-/// Returns the file's name without folder and ending, or all of it where that is taken.
-template <class Named>
-std::string nameOf(const std::string& text, const std::vector<Named>& others) {
-  const std::string stem = std::filesystem::path(text).stem().string();
-  for (const Named& other : others)
-    if (other.name == stem) return text;
-  return stem.empty() ? text : stem;
-}
-
 /// Returns the states of a trace's own rows, which a reader of flights would drop or mend, over the ground as
 /// it was.
 std::vector<AircraftState> statesOf(const std::vector<TraceRow>& trace) {
@@ -76,13 +65,12 @@ std::vector<AircraftState> statesOf(const std::vector<TraceRow>& trace) {
 bool readFlights(const BenchOptions& arguments, harness::Plan& plan) {
   bool usable = true;
   for (const std::string& file : arguments.flights) {
-    Result<Flight> flight = link::openFlightOption(file, arguments.columns);
-    report(flight.findings());
+    std::optional<Flight> flight = arguments.readFlight(file);
     if (!flight) {
       usable = false;
       continue;
     }
-    harness::Plan::NamedFlight named{nameOf(file, plan.flights), std::move(flight).value()};
+    harness::Plan::NamedFlight named{nameOf(file, plan.flights), *std::move(flight)};
     if (isTraceFile(file)) {
       const Result<std::vector<TraceRow>> trace = readTrace(file);
       report(trace.findings());
@@ -137,17 +125,15 @@ int run(const BenchOptions& arguments) {
   plan.repeats = arguments.repeats;
   plan.whole = arguments.whole;
   plan.progress = progressLines();
-  Findings faults;
-  if (!parseSize(arguments.size, plan.widthPx, plan.heightPx))
-    faults.push_back(refused("--size", "WIDTHxHEIGHT, each 16 to 16384 px", arguments.size));
-  if (!parseCases(arguments.cases, plan.cases))
-    faults.push_back(
-        refused("--cases", "some of none, view_frustum, proposed with commas between", arguments.cases));
+  bool usable = arguments.readSize(plan.widthPx, plan.heightPx);
+  if (!parseCases(arguments.cases, plan.cases)) {
+    report({refused("--cases", "some of none, view_frustum, proposed with commas between", arguments.cases)});
+    usable = false;
+  }
   plan.part = arguments.part.read();
-  report(faults);
-  bool usable = readFlights(arguments, plan);
-  usable = readPresets(arguments, plan) && usable && faults.empty();
-  plan.terrain = openTerrain(arguments.terrain, arguments.origin, plan.progress);
+  usable = readFlights(arguments, plan) && usable;
+  usable = readPresets(arguments, plan) && usable;
+  plan.terrain = arguments.openTerrain(plan.progress);
   if (!plan.terrain || !usable) return kRefused;
   plan.terrainName = plan.terrain->info().name;
   const Result<harness::Results> results = harness::run(plan, arguments.output);
@@ -168,23 +154,16 @@ void addBench(CLI::App& app, int& exitCode) {
       "The folder gets results.json, frames.csv, report.html and pictures of the worst frames. A run that "
       "was "
       "stopped goes on where it was when the same command is given again.");
-  command->add_option("--terrain", arguments->terrain, "Database, OpenSceneGraph scene, or elevation to bake")
-      ->required();
-  command->add_option("--origin", arguments->origin, scene::kOriginHelp);
-  command->add_option("--flight", arguments->flights, "Flights (CSV, trace or capture); one or more")
-      ->required();
-  command->add_option("--columns", arguments->columns, link::kColumnsHelp);
-  command->add_option("--preset", arguments->presets, "Presets or exports; the first is compared against")
-      ->capture_default_str();
+  arguments->add(*command, arguments->flights, "Flights (CSV, trace or capture); one or more",
+                 arguments->presets, "Presets or exports; the first is compared against");
+  command->get_option("--flight")->required();
   command->add_option("--cases", arguments->cases, "Culling cases, with commas between")
       ->capture_default_str();
-  command->add_option("--set", arguments->settings, "KEY=VALUE on top of every preset; may be repeated");
   command
       ->add_option("--sweep", arguments->sweeps,
                    "KEY=A,B,...: measures every preset at each of these values; once or twice")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--size", arguments->size, "Render size")->capture_default_str();
   command->add_option("--frames", arguments->frames, "Frames of each flight, evenly spread")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
@@ -195,8 +174,7 @@ void addBench(CLI::App& app, int& exitCode) {
                     "Draws every image of presets whose rules or budget depend on earlier images, not only "
                     "those that may have an effect on a measured frame");
   arguments->part.add(*command);
-  command->add_flag("--json", arguments->json, "One JSON document on standard output");
-  command->add_option("-o,--output", arguments->output, "Folder for the results")->required();
+  arguments->addOutput(*command, "Folder for the results")->required();
   stopWhenAsked(*command);
   command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
 }

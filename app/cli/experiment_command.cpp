@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "app/experiment/experiment.h"
-#include "app/link/log_options.h"
 #include "commands.h"
 #include "experiment_setup.h"
 #include "progress.h"
@@ -13,18 +12,12 @@
 namespace trimtab::cli {
 namespace {
 
-struct ExperimentOptions {
-  SetupArguments setup;
-  std::string output;
-  bool json = false;
-};
-
 using Run = Result<experiment::Report> (*)(const experiment::Setup&);
 
-int run(const ExperimentOptions& arguments, Run experiment) {
+int run(const SetupArguments& arguments, Run experiment) {
   // Opening the terrain may bake it first.
   if (!mayWriteTo(arguments.output)) return kRefused;
-  const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
+  const std::optional<experiment::Setup> setup = setupFrom(arguments);
   if (!setup) return kRefused;
   const MachineWatch watch;
   Result<experiment::Report> done = experiment(*setup);
@@ -63,20 +56,20 @@ void addExperiment(CLI::App& app, int& exitCode) {
            Named{"static-lod", "Faces by level of one tile of scenery (document E)",
                  &experiment::runStaticLod},
        }) {
-    auto arguments = std::make_shared<ExperimentOptions>();
+    auto arguments = std::make_shared<SetupArguments>();
     CLI::App* command = group->add_subcommand(named.name, named.what);
     const bool headMotion = std::string_view(named.name).starts_with("head-motion");
     // Each repeat is a pass, and fewer than six have no interval.
-    if (headMotion) arguments->setup.repeats = 9;
-    arguments->setup.addTo(*command);
+    if (headMotion) arguments->repeats = 9;
+    arguments->addTo(*command);
     if (headMotion) {
       command->get_option("--repeats")->description("Passes in each mode; fewer than six tell no difference");
-      command->add_option("--host-rate", arguments->setup.hostRateHz, "Host states a second")
+      command->add_option("--host-rate", arguments->hostRateHz, "Host states a second")
           ->capture_default_str()
           ->check(CLI::Range(1, 1000));
     }
     if (std::string_view(named.name) == "hold") {
-      experiment::HoldSetup& hold = arguments->setup.hold;
+      experiment::HoldSetup& hold = arguments->hold;
       command->add_flag(
           "--fixed", hold.fixedSettings,
           "Also fly fixed settings of the same levers in turns with hold, but for those that are far too "
@@ -89,11 +82,10 @@ void addExperiment(CLI::App& app, int& exitCode) {
           ->check(CLI::Range(2, 600));
       command->add_option("--strain", hold.strain, "Only this strain: sweep, head log, weather, or steady")
           ->check(CLI::IsMember({"sweep", "head log", "weather", "steady"}));
-      command->add_option("--head", arguments->setup.head, "Head log, or sweep:DEG/S; bad rows are left out");
-      command->add_option("--head-columns", arguments->setup.headColumns, link::kHeadColumnsHelp);
+      command->add_option("--head", arguments->head, "Head log, or sweep:DEG/S; bad rows are left out");
+      command->add_option("--head-columns", arguments->headColumns, link::kHeadColumnsHelp);
     }
-    command->add_option("-o,--output", arguments->output, "Folder for JSON, CSV and a page with plots");
-    command->add_flag("--json", arguments->json, "One JSON document on standard output");
+    arguments->addOutput(*command, "Folder for JSON, CSV and a page with plots");
     stopWhenAsked(*command);
     command->callback([arguments, run = named.run, &exitCode] { exitCode = cli::run(*arguments, run); });
   }

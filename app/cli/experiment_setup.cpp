@@ -2,27 +2,16 @@
 
 #include <filesystem>
 
-#include "app/link/log_options.h"
 #include "commands.h"
-#include "open_terrain.h"
 #include "progress.h"
 #include "settings.h"
 #include "trimtab/preset/file_io.h"
-#include "trimtab/preset/preset.h"
-#include "trimtab/scene/osg_database.h"
 #include "trimtab/terrain/format/database.h"
 
 namespace trimtab::cli {
 
 void SetupArguments::addTo(CLI::App& command) {
-  command.add_option("--terrain", terrain, "Database, OpenSceneGraph scene, or elevation to bake")
-      ->required();
-  command.add_option("--origin", origin, scene::kOriginHelp);
-  command.add_option("--flight", flight, "Places to look from; without it the terrain's own");
-  command.add_option("--columns", columns, link::kColumnsHelp);
-  command.add_option("--preset", preset, "Preset or export")->capture_default_str();
-  command.add_option("--set", settings, "KEY=VALUE on top of the preset; may be repeated");
-  command.add_option("--size", size, "Render size")->capture_default_str();
+  add(command, flight, "Places to look from; without it the terrain's own", preset, "Preset or export");
   command.add_option("--repeats", repeats, "Frames a view whose median counts")
       ->capture_default_str()
       ->check(CLI::Range(1, 100));
@@ -31,15 +20,13 @@ void SetupArguments::addTo(CLI::App& command) {
 std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
   experiment::Setup setup;
   setup.progress = progressLines();
-  bool usable = parseSize(arguments.size, setup.widthPx, setup.heightPx);
-  if (!usable) report({{Severity::error, "--size", {}, "WIDTHxHEIGHT, each 16 to 16384 px", arguments.size}});
+  bool usable = arguments.readSize(setup.widthPx, setup.heightPx);
   const std::optional<ValidatedParameters> parameters = parametersFor(arguments.preset, arguments.settings);
   usable = parameters && usable;
   if (!arguments.flight.empty()) {
-    Result<Flight> flight = link::openFlightOption(arguments.flight, arguments.columns);
-    report(flight.findings());
+    std::optional<Flight> flight = arguments.readFlight(arguments.flight);
     usable = flight && usable;
-    if (flight) setup.flight = std::move(flight).value();
+    if (flight) setup.flight = *std::move(flight);
   }
   setup.hold = arguments.hold;
   if (!arguments.head.empty()) {
@@ -48,7 +35,7 @@ std::optional<experiment::Setup> setupFrom(const SetupArguments& arguments) {
     usable = head && usable;
     if (head) setup.hold.head = std::move(head).value();
   }
-  setup.terrain = openTerrain(arguments.terrain, arguments.origin, setup.progress);
+  setup.terrain = arguments.openTerrain(setup.progress);
   if (!setup.terrain || !usable) return std::nullopt;
   setup.terrainName = setup.terrain->info().name;
   setup.parameters = **parameters;

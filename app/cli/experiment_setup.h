@@ -1,19 +1,17 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/experiment/experiment.h"
+#include "run_options.h"
 #include "trimtab/preset/preset.h"
 
 namespace trimtab::cli {
 
 /// The options that say what an experiment runs on.
-struct SetupArguments {
-  std::string terrain, origin, flight, columns, preset = "default", size = "1280x720";
-  std::vector<std::string> settings;
+struct SetupArguments : RunOptions {
+  std::string flight, preset = "default";
   int repeats = 3;
   double hostRateHz = 200;
   experiment::HoldSetup hold;

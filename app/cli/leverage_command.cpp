@@ -12,17 +12,15 @@
 namespace trimtab::cli {
 namespace {
 
-struct LeverageOptions {
-  SetupArguments setup;
+struct LeverageOptions : SetupArguments {
   std::size_t frames = 24;
-  std::string output, losses;
-  bool json = false;
+  std::string losses;
 };
 
 int run(const LeverageOptions& arguments) {
   if (!mayWriteTo(arguments.output) || !mayWriteFile(arguments.losses)) return kRefused;
-  const auto preset = loadPreset(arguments.setup.preset);
-  std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
+  const auto preset = loadPreset(arguments.preset);
+  std::optional<experiment::Setup> setup = setupFrom(arguments);
   if (!preset || !setup) return kRefused;
   setup->frames = arguments.frames;
   const Result<experiment::Leverage> done = experiment::measureLeverage(*setup);
@@ -53,16 +51,14 @@ void addLeverage(CLI::App& app, int& exitCode) {
       "has "
       "nothing to do in the flight is measured under the condition that it is for, which its row names.");
   auto arguments = std::make_shared<LeverageOptions>();
-  arguments->setup.addTo(*command);
+  arguments->addTo(*command);
   command->get_option("--flight")->required()->description("The flight");
   command->add_option("--frames", arguments->frames, "Frames of the flight, evenly spread")
       ->capture_default_str()
       ->check(CLI::Range(1, 10000));
-  command->add_option("-o,--output", arguments->output,
-                      "Folder for leverage.json, leverage.csv and leverage.html");
+  arguments->addOutput(*command, "Folder for leverage.json, leverage.csv and leverage.html");
   command->add_option("--losses", arguments->losses,
                       "Preset file that receives what the arbiter loses by each lever, hold.loss_*");
-  command->add_flag("--json", arguments->json, "One JSON document on standard output");
   stopWhenAsked(*command);
   command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
 }

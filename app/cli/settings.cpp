@@ -44,12 +44,6 @@ Provenance provenanceNow() {
       .author = {}, .created = text, .program = "trimtab-cli " TRIMTAB_VERSION, .terrain = {}, .comment = {}};
 }
 
-bool parseSize(const std::string& text, int& width, int& height) {
-  char after = 0;
-  return std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &after) == 2 && width >= 16 && height >= 16 &&
-         width <= 16384 && height <= 16384;
-}
-
 namespace {
 
 std::optional<harness::Plan::Part> parsePart(const std::string& text) {

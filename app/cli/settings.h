@@ -25,9 +25,6 @@ std::optional<ValidatedParameters> parametersFor(const std::string& preset,
 /// as ISO 8601 UTC.
 Provenance provenanceNow();
 
-/// Reads a size in pixels such as "1280x720". Returns false unless both sides are 16 to 16384.
-bool parseSize(const std::string& text, int& width, int& height);
-
 /// The share of a run that one of several processes does.
 struct PartOptions {
   std::string part;

@@ -4,36 +4,36 @@
 #include <string>
 #include <vector>
 
-#include "app/link/log_options.h"
 #include "app/tune/tune.h"
 #include "commands.h"
-#include "open_terrain.h"
 #include "progress.h"
+#include "run_options.h"
 #include "settings.h"
 #include "trimtab/preset/preset.h"
-#include "trimtab/scene/osg_database.h"
 
 namespace trimtab::cli {
 namespace {
 
-struct TuneOptions {
-  std::string terrain, origin, output, columns, preset = "default", size = "1280x720", time = "p95";
-  std::vector<std::string> flights, heldOut, free, settings;
+struct TuneOptions : RunOptions {
+  std::string preset = "default", time = "p95";
+  std::vector<std::string> flights, heldOut, free;
   double budgetMs = 0, maxError = 0;
   tune::Plan plan;
   PartOptions part;
-  bool json = false;
 };
 
-bool readFlights(const TuneOptions& arguments, const std::vector<std::string>& files,
-                 std::vector<harness::Plan::NamedFlight>& flights) {
+bool readFlights(const TuneOptions& arguments, tune::Plan& plan) {
+  std::vector<harness::Plan::NamedFlight> all;
   bool usable = true;
-  for (const std::string& file : files) {
-    Result<Flight> flight = link::openFlightOption(file, arguments.columns);
-    report(flight.findings());
-    usable = usable && flight;
-    if (flight) flights.push_back({std::filesystem::path(file).stem().string(), std::move(flight).value()});
-  }
+  for (const auto* files : {&arguments.flights, &arguments.heldOut})
+    for (const std::string& file : *files) {
+      std::optional<Flight> flight = arguments.readFlight(file);
+      usable = usable && flight;
+      all.push_back({nameOf(file, all), std::move(flight).value_or(Flight{})});
+    }
+  const auto seen = all.begin() + static_cast<std::ptrdiff_t>(arguments.flights.size());
+  plan.flights.assign(all.begin(), seen);
+  plan.heldOut.assign(seen, all.end());
   return usable;
 }
 
@@ -50,17 +50,13 @@ int run(const TuneOptions& arguments) {
   plan.time = arguments.time == "median" ? tune::TimeMeasure::median
               : arguments.time == "p99"  ? tune::TimeMeasure::p99
                                          : tune::TimeMeasure::p95;
-  Findings faults;
-  if (!parseSize(arguments.size, plan.widthPx, plan.heightPx))
-    faults.push_back({Severity::error, "--size", "", "WIDTHxHEIGHT, each 16 to 16384 px", arguments.size});
+  bool usable = arguments.readSize(plan.widthPx, plan.heightPx);
   plan.part = arguments.part.read();
-  report(faults);
   const std::optional<ValidatedParameters> start = parametersFor(arguments.preset, arguments.settings);
-  bool usable = readFlights(arguments, arguments.flights, plan.flights);
-  usable = readFlights(arguments, arguments.heldOut, plan.heldOut) && usable && faults.empty() && start;
-  if (!usable) return kRefused;
+  usable = readFlights(arguments, plan) && usable;
+  if (!usable || !start) return kRefused;
   plan.start = *start;
-  plan.terrain = openTerrain(arguments.terrain, arguments.origin, plan.progress);
+  plan.terrain = arguments.openTerrain(plan.progress);
   if (!plan.terrain) return kRefused;
   plan.terrainName = plan.terrain->info().name;
   const Result<tune::Outcome> outcome = tune::run(plan, arguments.output);
@@ -83,15 +79,12 @@ void addTune(CLI::App& app, int& exitCode) {
       "that was stopped goes on where it was when the same command is given again. Several machines share a "
       "folder with --part 1/8 to 8/8, once for each step that the command names; without --part the command "
       "joins what they did.");
-  command->add_option("--terrain", arguments->terrain, "Database, or elevation to bake")->required();
-  command->add_option("--origin", arguments->origin, scene::kOriginHelp);
-  command->add_option("--flight", arguments->flights, "Flights (CSV, trace or capture) that the search sees")
-      ->required();
+  arguments->add(*command, arguments->flights, "Flights (CSV, trace or capture) that the search sees",
+                 arguments->preset, "Preset or export to start from");
+  command->get_option("--terrain")->description("Database, or elevation to bake");
+  command->get_option("--flight")->required();
   command->add_option("--hold-out", arguments->heldOut,
                       "Flights that the search does not see, on which what it found is proven");
-  command->add_option("--columns", arguments->columns, link::kColumnsHelp);
-  command->add_option("--preset", arguments->preset, "Preset or export to start from")->capture_default_str();
-  command->add_option("--set", arguments->settings, "KEY=VALUE on top of the preset; may be repeated");
   command
       ->add_option(
           "--free", arguments->free,
@@ -107,7 +100,6 @@ void addTune(CLI::App& app, int& exitCode) {
   command->add_option("--time", arguments->time, "The time that is made small: median, p95 or p99")
       ->check(CLI::IsMember({"median", "p95", "p99"}))
       ->capture_default_str();
-  command->add_option("--size", arguments->size, "Render size")->capture_default_str();
   command->add_option("--points", plan.points, "Found presets to draw")
       ->check(CLI::Range(1, 6))
       ->capture_default_str();
@@ -128,8 +120,7 @@ void addTune(CLI::App& app, int& exitCode) {
       ->capture_default_str();
   command->add_option("--seed", plan.seed, "Seed of the first search")->capture_default_str();
   arguments->part.add(*command);
-  command->add_flag("--json", arguments->json, "One JSON document on standard output");
-  command->add_option("-o,--output", arguments->output, "Folder for the results")->required();
+  arguments->addOutput(*command, "Folder for the results")->required();
   stopWhenAsked(*command);
   command->callback([arguments, &exitCode] { exitCode = cli::run(*arguments); });
 }

@@ -16,12 +16,9 @@
 namespace trimtab::cli {
 namespace {
 
-struct WeatherOptions {
-  SetupArguments setup;
+struct WeatherOptions : SetupArguments {
   std::vector<std::string> steps;
   double vertices = 0;
-  std::string output;
-  bool json = false;
 };
 
 std::string nameOf(WeatherStep step) {
@@ -86,8 +83,8 @@ void printJson(const experiment::CalibratedWeather& calibrated, double othersSha
 
 int calibrate(const WeatherOptions& arguments) {
   if (!mayWriteFile(arguments.output)) return kRefused;
-  const auto preset = loadPreset(arguments.setup.preset);
-  const std::optional<experiment::Setup> setup = setupFrom(arguments.setup);
+  const auto preset = loadPreset(arguments.preset);
+  const std::optional<experiment::Setup> setup = setupFrom(arguments);
   if (!preset || !setup) return kRefused;
   experiment::WeatherCalibration wanted{stepsOf(arguments.steps), {}};
   if (arguments.vertices > 0) wanted.vertices = arguments.vertices;
@@ -122,7 +119,7 @@ void addWeather(CLI::App& app, int& exitCode) {
                                                   "saves, and move the far plane out until both "
                                                   "match");
   const auto arguments = std::make_shared<WeatherOptions>();
-  arguments->setup.addTo(*command);
+  arguments->addTo(*command);
   std::vector<std::string> names;
   for (const WeatherStep step : stepsOf({})) names.push_back(nameOf(step));
   command->add_option("--step", arguments->steps, "Step to calibrate; may be repeated; without it all six")
@@ -131,10 +128,9 @@ void addWeather(CLI::App& app, int& exitCode) {
       ->add_option("--vertices", arguments->vertices,
                    "Vertices in view, reached by the screen-space error; without it those of the preset")
       ->check(CLI::PositiveNumber);
-  command->add_option("-o,--output", arguments->output,
-                      "Preset file that receives far planes and densities, but none of a step whose times "
-                      "contradict each other; then the exit code is 1");
-  command->add_flag("--json", arguments->json, "One JSON document on standard output");
+  arguments->addOutput(*command,
+                       "Preset file that receives far planes and densities, but none of a step whose times "
+                       "contradict each other; then the exit code is 1");
   stopWhenAsked(*command);
   command->callback([arguments, &exitCode] { exitCode = calibrate(*arguments); });
 }
