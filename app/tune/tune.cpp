@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
+#include "app/harness/flown_frames.h"
+#include "app/harness/run_plan.h"
 #include "candidates.h"
 #include "run_folder.h"
 #include "search_space.h"
@@ -54,12 +57,26 @@ Findings faultsOf(const Plan& plan) {
   Findings faults;
   if (plan.flights.empty()) faults.push_back(fault("--flight", "at least one", "none"));
   if (plan.budgetMs && plan.maxError) faults.push_back(fault("--max-error", "a budget or an error", "both"));
+  const Range budget = findRow("measure.budget_ms")->hard;
+  if (plan.budgetMs && !(*plan.budgetMs >= budget.low && *plan.budgetMs <= budget.high))
+    faults.push_back(fault("--budget-ms", numberText(budget.low) + " to " + numberText(budget.high) + " ms",
+                           numberText(*plan.budgetMs) + " ms"));
   std::set<std::string> names;
+  std::map<std::string, std::string> seen;  ///< names by what is flown
   for (const auto* list : {&plan.flights, &plan.heldOut})
-    for (const auto& flight : *list)
+    for (const auto& flight : *list) {
+      const char* const option = list == &plan.flights ? "--flight" : "--hold-out";
+      const char* const once = "each flight once, so that what is held out was not seen";
+      const auto [same, isNew] = seen.emplace(harness::planText({{"", flight.flight}}), flight.name);
       if (!names.insert(flight.name).second)
-        faults.push_back(fault("--flight", "each flight once, so that what is held out was not seen",
-                               flight.name + " twice"));
+        faults.push_back(fault(option, once, flight.name + " twice"));
+      else if (!isNew)
+        faults.push_back(fault(option, once, flight.name + ", which flies as " + same->second + " does"));
+      if (plan.terrain && harness::sampledRows(flight.flight, *plan.terrain, 1).empty())
+        faults.push_back(
+            {Severity::error, option, flight.name, "a flight over the terrain " + plan.terrainName,
+             "none of its " + std::to_string(flight.flight.states.size()) + " rows lies over it"});
+    }
   // A scene of OpenSceneGraph has an index without a form in it.
   const std::shared_ptr<const LoadIndex> index = scene::loadIndexOf(plan.terrain);
   if (!index || !(index->tiles || index->patches || index->trees))
@@ -77,7 +94,6 @@ class Run {
     if (Findings failed = makeModels(); !failed.empty()) return failed;
     if (Findings failed = drawAll(); !failed.empty()) return failed;
     if (!missing_.empty()) return partDone("then the searches come");
-    if (Findings failed = emptyFrame(); !failed.empty()) return failed;
     if (Findings failed = searchAll(); !failed.empty()) return failed;
     if (!missing_.empty()) return partDone("then presets are tried out");
     if (Findings failed = tryOut(); !failed.empty()) return failed;
@@ -117,7 +133,7 @@ class Run {
 
   Findings makeModels();
   Findings drawAll();
-  Findings emptyFrame() const;
+  Findings emptyFrame(const FlightModel& model) const;
   Findings searchAll();
   void addOthers();
   void findIdle();
@@ -169,17 +185,17 @@ Findings Run::drawAll() {
       if (const auto written = folder_.write(i, *samples); !written) return written.findings();
     }
     models_[i].learn(*samples);
+    if (i < plan_.flights.size())
+      if (Findings failed = emptyFrame(models_[i]); !failed.empty()) return failed;
   }
   return {};
 }
 
 /// Refuses a budget that not even an image without ground stays within.
-Findings Run::emptyFrame() const {
-  double emptyMs = 0;
-  for (const FlightModel& model : seen()) emptyMs = std::max(emptyMs, model.emptyMs());
-  if (!plan_.budgetMs || *plan_.budgetMs > emptyMs) return {};
+Findings Run::emptyFrame(const FlightModel& model) const {
+  if (!plan_.budgetMs || *plan_.budgetMs > model.emptyMs()) return {};
   return {fault("--budget-ms",
-                "more than an image without ground takes, about " + numberText(emptyMs, 3) + " ms",
+                "more than an image without ground takes, about " + numberText(model.emptyMs(), 3) + " ms",
                 numberText(*plan_.budgetMs) + " ms")};
 }
 

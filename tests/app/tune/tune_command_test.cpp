@@ -79,6 +79,39 @@ TEST_F(TuneCommand, killedItGoesOnToTheSameBits) {
   }
 }
 
+/// A disk of 32 KiB, where mounting is permitted.
+TEST_F(TuneCommand, saysThatTheDiskIsFullAndGoesOnOnceItIsNot) {
+  const test::ScratchDir dir;
+  const std::string disk = (dir / "disk").string();
+  fs::create_directory(disk);
+  std::string command = cli();
+  for (const std::string& argument : arguments(fs::path(disk) / "out", {"--searches", "8"}))
+    command += " \"" + argument + '"';
+  const std::string mount = "mount -t tmpfs -o size=32k tmpfs " + disk;
+  if (test::run("unshare -rm sh -c '" + mount + "'").exitCode != 0)
+    GTEST_SKIP() << "mounting is not permitted";
+  const test::Ran full =
+      test::run("unshare -rm sh -c '" + mount + " && { " + command + "; echo $? $(ls " + disk +
+                "/out); mount -o remount,size=64m " + disk + " && " + command + "; echo $?; }'");
+  EXPECT_THAT(full.err, HasSubstr("No space left on device"));
+  EXPECT_THAT(full.err, HasSubstr(disk + "/out/"));
+  EXPECT_THAT(full.out, testing::StartsWith("1 samples-0.json")) << "what was finished is kept";
+  EXPECT_THAT(full.out, testing::EndsWith("\n0\n")) << full.err;
+}
+
+/// Two days may have a flight of one name each.
+TEST_F(TuneCommand, flightsOfOneNameAreToldApartByTheirFolders) {
+  const test::ScratchDir dir;
+  fs::copy_file(flight("skip"), dir / "hop.csv");
+  std::vector<std::string> words = arguments(dir / "out");
+  std::replace(words.begin(), words.end(), flight("skip"), (dir / "hop.csv").string());
+  std::string command = cli();
+  for (const std::string& word : words) command += " '" + word + '\'';
+  const test::Ran done = test::run(command);
+  ASSERT_EQ(done.exitCode, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr((dir / "hop.csv").string()));
+}
+
 TEST_F(TuneCommand, badOptionsAreNamed) {
   const test::ScratchDir dir;
   const auto refusal = [&](const std::vector<std::string>& more) {
@@ -90,6 +123,14 @@ TEST_F(TuneCommand, badOptionsAreNamed) {
   EXPECT_THAT(refusal({"--budget-ms", "5", "--max-error", "0.1"}), HasSubstr("excludes"));
   EXPECT_THAT(refusal({"--budget-ms", "-5"}), HasSubstr("--budget-ms"));
   EXPECT_THAT(refusal({"--flight", "nowhere.csv"}), HasSubstr("nowhere.csv"));
+  test::writeFile(dir / "words.csv", "once,upon\na,time\n");
+  EXPECT_THAT(refusal({"--hold-out", (dir / "words.csv").string()}), HasSubstr("words.csv"));
+  fs::copy_file(flight(), dir / "jump.csv");
+  EXPECT_THAT(refusal({"--hold-out", (dir / "jump.csv").string()}),
+              HasSubstr("jump, which flies as hop does"));
+  EXPECT_THAT(refusal({"--free", "lod.scale=3..1"}), HasSubstr("LOW below HIGH"));
+  EXPECT_THAT(refusal({"--free", "objects.error_px=2..900"}), HasSubstr("ends within"));
+  EXPECT_THAT(refusal({"--budget-ms", "5000"}), HasSubstr("0.1 to 1000 ms"));
   EXPECT_FALSE(fs::exists(dir / "out")) << "nothing is left of what was refused";
 }
 

@@ -131,22 +131,47 @@ TEST(Tune, partsDoTogetherWhatOneProcessDoes) {
 
 TEST(Tune, refusesBeforeHoursAreSpent) {
   const test::ScratchDir dir;
+  bool drawn = false;
   const auto refusal = [&](const std::function<void(Plan&)>& edit) {
     Plan plan = smallTunePlan();
+    plan.progress = [&](double, const std::string& what) {
+      drawn = drawn || what.starts_with("drawing");
+      return true;
+    };
     edit(plan);
     const auto outcome = run(plan, dir / "refused");
-    fs::remove_all(dir / "refused");
     return outcome ? std::string() : toString(outcome.findings());
   };
   EXPECT_THAT(refusal([](Plan& p) { p.free.clear(); }), HasSubstr("at least one parameter"));
   EXPECT_THAT(refusal([](Plan& p) { p.flights.clear(); }), HasSubstr("--flight"));
   EXPECT_THAT(refusal([](Plan& p) { p.heldOut = p.flights; }), HasSubstr("was not seen"));
-  EXPECT_THAT(refusal([](Plan& p) { p.budgetMs = 1e-3; }), HasSubstr("an image without ground"));
-  EXPECT_THAT(refusal([](Plan& p) {
-                for (AircraftState& state : p.flights[0].flight.states)
-                  state.position.latitude = Degrees{-40};
+  EXPECT_THAT(refusal([](Plan& p) { p.heldOut[0].name = p.flights[0].name; }), HasSubstr("first twice"));
+  EXPECT_THAT(refusal([](Plan& p) { p.heldOut[0].flight.states = p.flights[0].flight.states; }),
+              HasSubstr("second, which flies as first does"));
+  EXPECT_THAT(refusal([](Plan& p) { p.free = {"lod.scale=2..3"}; }), HasSubstr("where the preset is, 1"));
+  EXPECT_THAT(refusal([](Plan& p) { p.budgetMs = 1e-3; }), HasSubstr("--budget-ms: expected 0.1 to 1000 ms"));
+  for (const bool heldOut : {false, true})
+    EXPECT_THAT(refusal([&](Plan& p) {
+                  for (AircraftState& state : (heldOut ? p.heldOut : p.flights)[0].flight.states)
+                    state.position.latitude = Degrees{-40};
+                }),
+                HasSubstr(std::string(heldOut ? "--hold-out: second" : "--flight: first") +
+                          ": expected a flight over the terrain mountains"));
+  EXPECT_FALSE(drawn);
+  EXPECT_FALSE(fs::exists(dir / "refused")) << "it would not take the plan that is mended";
+
+  // What an image without ground takes is known once a flight's samples are drawn.
+  std::string doing;
+  EXPECT_THAT(refusal([&](Plan& p) {
+                p.budgetMs = 0.1;
+                p.widthPx = 640, p.heightPx = 360;
+                p.progress = [&](double, const std::string& what) {
+                  doing = what;
+                  return true;
+                };
               }),
-              HasSubstr("over the terrain mountains"));
+              HasSubstr("more than an image without ground takes"));
+  EXPECT_EQ(doing, "drawing samples of first") << "the other flight is not drawn";
 }
 
 TEST(Tune, refusesASceneWhoseLevelsNobodyCanCount) {
@@ -174,6 +199,11 @@ TEST(Tune, aFolderOfAnotherPlanIsNamedAndKept) {
   const auto refused = run(other, dir / "out");
   ASSERT_FALSE(refused);
   EXPECT_THAT(toString(refused.findings()), HasSubstr("seed"));
+  other = plan;
+  other.version = "newer";
+  EXPECT_THAT(
+      toString(run(other, dir / "out").findings()),
+      HasSubstr("version: expected what this folder was made with, test (or another folder), found newer"));
   EXPECT_EQ(searchOf(dir / "out"), before);
   fs::create_directory(dir / "notes");
   test::writeFile(dir / "notes" / "tune.html", "mine");
