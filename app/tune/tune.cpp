@@ -35,10 +35,6 @@ Finding fault(const char* what, std::string expected, std::string found) {
   return {Severity::error, what, "", std::move(expected), std::move(found)};
 }
 
-double secondsSince(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 std::string rangeText(const std::vector<double>& values) {
   const auto [least, most] = std::ranges::minmax(values);
   return numberText(least, 3) + " to " + numberText(most, 3);
@@ -115,8 +111,14 @@ class Run {
     return !plan_.part || number % plan_.part->count == plan_.part->index;
   }
   bool goOn(double fraction, const std::string& what) const {
-    return !plan_.progress || plan_.progress(fraction, what);
+    if (!plan_.progress) return true;
+    const Clock::time_point asked = Clock::now();
+    const bool on = plan_.progress(fraction, what);
+    paused_ += Clock::now() - asked;
+    return on;
   }
+  /// Returns the seconds that this run has worked: it may be paused in its progress.
+  double workedS() const { return std::chrono::duration<double>(Clock::now() - begin_ - paused_).count(); }
   Findings stopped() const {
     return {{Severity::error, folder_.path().string(), "", "to run to its end",
              "it was cancelled; the same command goes on from what is there"}};
@@ -153,10 +155,12 @@ class Run {
   std::string missing_;              ///< what other parts have not done yet; empty: nothing
   std::vector<Candidate> front_;     ///< by the estimates, and once presets were tried out, of those
   Outcome outcome_;
+  const Clock::time_point begin_ = Clock::now();
+  mutable Clock::duration paused_{0};
 };
 
 Findings Run::makeModels() {
-  const auto begin = Clock::now();
+  const double begin = workedS();
   for (std::size_t i = 0; i < flights(); ++i) {
     if (!goOn(0, "counting the triangles of " + flight(i).name)) return stopped();
     models_.emplace_back(FlightModel::Scene{plan_.terrain, plan_.widthPx, plan_.heightPx}, flight(i).flight,
@@ -165,7 +169,7 @@ Findings Run::makeModels() {
       return {fault(flight(i).name.c_str(), "a flight over the terrain " + plan_.terrainName,
                     "none of its " + std::to_string(flight(i).flight.states.size()) + " rows lies over it")};
   }
-  outcome_.buildS = secondsSince(begin);
+  outcome_.buildS = workedS() - begin;
   return {};
 }
 
@@ -200,7 +204,7 @@ Findings Run::emptyFrame(const FlightModel& model) const {
 }
 
 Findings Run::searchAll() {
-  const auto begin = Clock::now();
+  const double begin = workedS();
   const Judge judge(plan_, space_, seen());
   for (std::size_t s = 0; s < plan_.searches; ++s) {
     std::optional<std::vector<Candidate>> front = folder_.search(s);
@@ -232,7 +236,7 @@ Findings Run::searchAll() {
     }
     front_ = joined(std::move(front_), *front);
   }
-  outcome_.searchS = secondsSince(begin);
+  outcome_.searchS = workedS() - begin;
   if (missing_.empty() && front_.empty())
     return {fault("--free", "parameters of which some values break no rule", "none that was tried")};
   return {};

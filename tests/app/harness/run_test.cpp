@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "app/harness/heat_colour.h"
 #include "mountain_plan.h"
@@ -41,6 +43,29 @@ std::map<std::string, fs::file_time_type> partsOf(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder / "parts"))
     parts[entry.path().filename().string()] = entry.last_write_time();
   return parts;
+}
+
+/// A program that is paused waits in its progress.
+TEST(Run, theTimeLeftHasNoPauseInIt) {
+  using Seconds = std::chrono::duration<double>;
+  const test::ScratchDir dir;
+  Plan plan = smallPlan();
+  constexpr std::chrono::milliseconds kPause{100};
+  Seconds paused{0};
+  double longestS = 0;
+  plan.progress = [&](double, const std::string& what) {
+    if (const std::size_t at = what.find("about "); at != std::string::npos)
+      longestS = std::max(longestS, std::stod(what.substr(at + 6)));
+    const auto asked = std::chrono::steady_clock::now();
+    std::this_thread::sleep_for(kPause);
+    paused += std::chrono::steady_clock::now() - asked;
+    return true;
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_TRUE(run(plan, dir / "out"));
+  const Seconds all = std::chrono::steady_clock::now() - begin;
+  EXPECT_GT(longestS, 0);
+  EXPECT_LT(longestS, (all - paused / 2).count()) << "paused for " << paused.count() << " s";
 }
 
 TEST(Run, measuresEveryPresetAndCaseOnTheSameRows) {

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "app/tune/verdict.h"
 #include "tests/app/harness/mountain_plan.h"
@@ -100,6 +102,24 @@ TEST(Tune, aRunThatWasStoppedComesToTheSamePresets) {
   ASSERT_TRUE(resumed) << toString(resumed.findings());
   for (int s = 0; s < 2; ++s) EXPECT_EQ(searchOf(dir / "stopped", s), searchOf(dir / "whole", s));
   EXPECT_NE(searchOf(dir / "whole", 0), searchOf(dir / "whole", 1)) << "seeds of their own";
+}
+
+/// A program that is paused waits in its progress.
+TEST(Tune, theTimeOfASearchHasNoPauseInIt) {
+  const test::ScratchDir dir;
+  Plan plan = smallTunePlan();
+  double pausedS = 0;
+  plan.progress = [&](double, const std::string& what) {
+    const bool search = what.starts_with("search"), counting = what.starts_with("counting");
+    if (search || counting) std::this_thread::sleep_for(std::chrono::milliseconds(search ? 500 : 2000));
+    if (search) pausedS += 0.5;
+    return true;
+  };
+  const auto outcome = run(plan, dir / "out");
+  ASSERT_TRUE(outcome) << toString(outcome.findings());
+  EXPECT_GT(pausedS, 0);
+  EXPECT_LT(outcome->searchS, pausedS);
+  EXPECT_LT(outcome->buildS, 4) << "two flights were counted";
 }
 
 TEST(Tune, partsDoTogetherWhatOneProcessDoes) {
