@@ -15,7 +15,7 @@ namespace trimtab::cli {
 namespace {
 
 struct TuneOptions : RunOptions {
-  std::string preset = "default", time = "p95";
+  std::string preset = "default", time = "p95", error = "flip";
   std::vector<std::string> flights, heldOut, free;
   double budgetMs = 0, maxError = 0;
   tune::Plan plan;
@@ -50,6 +50,7 @@ int run(const TuneOptions& arguments) {
   plan.time = arguments.time == "median" ? tune::TimeMeasure::median
               : arguments.time == "p99"  ? tune::TimeMeasure::p99
                                          : tune::TimeMeasure::p95;
+  plan.error = tune::errorKindOf(arguments.error);
   bool usable = arguments.readSize(plan.widthPx, plan.heightPx);
   plan.part = arguments.part.read();
   const std::optional<ValidatedParameters> start = parametersFor(arguments.preset, arguments.settings);
@@ -94,9 +95,17 @@ void addTune(CLI::App& app, int& exitCode) {
   CLI::Option* budget =
       command->add_option("--budget-ms", arguments->budgetMs, "Longest time of a flight's images, ms")
           ->check(CLI::PositiveNumber);
-  command->add_option("--max-error", arguments->maxError, "Greatest mean FLIP, 0 to 1")
-      ->check(CLI::Range(1e-6, 1.0))
+  command
+      ->add_option("--max-error", arguments->maxError,
+                   "Greatest error, in the unit of --error: FLIP from 0 to 1, pixels, or pops of 255")
+      ->check(CLI::PositiveNumber)
       ->excludes(budget);
+  command
+      ->add_option("--error", arguments->error,
+                   "The error that is made small: flip (mean), geometric (largest, pixels) or pop (95th "
+                   "percentile)")
+      ->check(CLI::IsMember({"flip", "geometric", "pop"}))
+      ->capture_default_str();
   command->add_option("--time", arguments->time, "The time that is made small: median, p95 or p99")
       ->check(CLI::IsMember({"median", "p95", "p99"}))
       ->capture_default_str();

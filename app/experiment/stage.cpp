@@ -88,6 +88,11 @@ std::vector<std::uint8_t> Stage::shown() {
   return renderer_.readPixels(width_, height_);
 }
 
+std::vector<float> Stage::distances() {
+  offscreen_->makeCurrent();
+  return renderer_.readDistances();
+}
+
 std::string Stage::machine() const {
   return machineName(gl_.renderer);
 }

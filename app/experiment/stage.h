@@ -42,6 +42,8 @@ class Stage {
   scene::CutError cutError(const FrameRequest& request);
   /// Returns the RGBA pixels of the last frame drawn.
   std::vector<std::uint8_t> shown();
+  /// Returns the distances of the last frame drawn (Renderer::readDistances).
+  std::vector<float> distances();
   /// Returns processor, cores and renderer in one line.
   std::string machine() const;
 

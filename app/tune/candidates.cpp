@@ -32,14 +32,15 @@ std::size_t within(std::span<const Candidate> front, std::size_t objective, doub
 }  // namespace
 
 Objectives Judge::of(const ValidatedParameters& parameters, std::span<const Missed> missed) const {
-  Objectives objectives{0, 0};
+  double longest = 0;
+  std::vector<double> errors;
   for (std::size_t i = 0; i < models_.size(); ++i) {
     const Estimate estimate = models_[i].estimate(parameters);
     const Missed off = missed.empty() ? Missed{} : missed[i];
-    objectives[0] = std::max(objectives[0], timeOf(estimate, plan_.time) * off.time);
-    objectives[1] += estimate.flip * off.error / static_cast<double>(models_.size());
+    longest = std::max(longest, timeOf(estimate, plan_.time) * off.time);
+    errors.push_back(estimate.error * off.error);
   }
-  return objectives;
+  return {longest, errorOfFlights(plan_.error, errors)};
 }
 
 Objectives Judge::operator()(std::span<const double> place) const {
@@ -52,7 +53,7 @@ double Judge::merit(const Objectives& objectives) const {
   const std::size_t limited = plan_.maxError ? 1 : 0;
   const double limit = plan_.maxError ? *plan_.maxError : plan_.budgetMs.value_or(kInfinite);
   const double over = objectives[limited] / limit;
-  // FLIP is at most 1, and no image takes an hour.
+  // An error is at most 255, and no image takes an hour.
   constexpr double kFar = 1e7;
   return over > 1 ? kFar * over : objectives[1 - limited];
 }
@@ -79,14 +80,14 @@ std::vector<Candidate> chosen(const Plan& plan, std::span<const Candidate> front
 
 Candidate simplified(const Judge& judge, std::span<const double> start, Candidate candidate) {
   // A number that moves neither time nor error by so much is not worth moving.
-  constexpr double kPart = 0.002, kFlip = 1e-5;
+  constexpr double kPart = 0.002;
   for (std::size_t i = 0; i < candidate.place.size(); ++i) {
     if (candidate.place[i] == start[i]) continue;
     std::vector<double> without = candidate.place;
     without[i] = start[i];
     const Objectives objectives = judge(without);
     if (objectives[0] <= candidate.objectives[0] * (1 + kPart) &&
-        objectives[1] <= candidate.objectives[1] * (1 + kPart) + kFlip) {
+        objectives[1] <= candidate.objectives[1] * (1 + kPart) + judge.unseen()) {
       candidate.place = std::move(without);
       candidate.objectives = objectives;
     }

@@ -18,14 +18,16 @@ class Judge {
   Judge(const Plan& plan, const SearchSpace& space, std::span<const FlightModel> models)
       : plan_(plan), space_(space), models_(models) {}
 
-  /// Returns the time of the flight that takes longest, milliseconds, and the mean FLIP of all; infinite if
-  /// the preset breaks a rule.
+  /// Returns the time of the flight that takes longest, milliseconds, and the error of all (errorOfFlights);
+  /// infinite if the preset breaks a rule.
   Objectives operator()(std::span<const double> place) const;
   /// `missed`, if it is given, corrects the estimates of each flight.
   Objectives of(const ValidatedParameters& parameters, std::span<const Missed> missed = {}) const;
   /// Orders what was judged by what the plan asks for: least error within the budget, least time within the
   /// error. What breaks the limit is worse than all that does not.
   double merit(const Objectives& objectives) const;
+  /// Returns an error that nobody sees.
+  double unseen() const { return rowOf(plan_.error).unseen; }
 
  private:
   const Plan& plan_;

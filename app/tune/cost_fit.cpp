@@ -7,7 +7,7 @@
 namespace trimtab::tune {
 namespace {
 
-constexpr std::size_t kTerms = 7;
+constexpr std::size_t kTerms = 8;
 using Terms = std::array<double, kTerms>;
 
 Terms termsOf(const FrameLoad& load, double instances, bool looksForHidden) {
@@ -17,7 +17,8 @@ Terms termsOf(const FrameLoad& load, double instances, bool looksForHidden) {
           looksForHidden ? 1.0 : 0.0,
           load.particles,
           load.particles > 0 ? load.sceneMpx : 0,
-          instances};
+          instances,
+          load.blurs ? load.sceneMpx : 0};
 }
 
 }  // namespace
@@ -66,6 +67,7 @@ FittedCost fitCost(std::span<const TimedImage> images) {
   fitted.coefficients.perParticles = cost[4];
   fitted.coefficients.perWeatherMpx = cost[5];
   fitted.perInstance = cost[6];
+  fitted.coefficients.perBlurMpx = cost[7];
   return fitted;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/experiment/stage.h"
+#include "error_kind.h"
 #include "trimtab/frame/frame_request.h"
 #include "trimtab/hold/cost_model.h"
 #include "trimtab/units/result.h"
@@ -25,13 +26,15 @@ enum class Loss : std::uint8_t {
   object_distance,
   render_scale,
   far_distance,
-  particles
+  particles,
+  blur,
+  level_spread
 };
-inline constexpr std::size_t kLosses = static_cast<std::size_t>(Loss::particles) + 1;
+inline constexpr std::size_t kLosses = static_cast<std::size_t>(Loss::level_spread) + 1;
 inline constexpr std::size_t kLossSteps = 6;
 
 /// The values at which a lever's loss is drawn, from the finest on; the last fill up the row. Errors and
-/// sizes are pixels, distances metres or a part of what the weather leaves, the others parts.
+/// sizes are pixels, distances metres or a part of what the weather leaves, the others parts. Spreads ascend.
 inline constexpr std::array<std::array<double, kLossSteps>, kLosses> kLossValues{{
     {1, 2, 4, 8, 16, 32},
     {1, 2, 4, 8, 16, 32},
@@ -40,20 +43,32 @@ inline constexpr std::array<std::array<double, kLossSteps>, kLosses> kLossValues
     {0.85, 0.7, 0.6, 0.5, 0.5, 0.5},
     {1, 0.7, 0.5, 0.25, 0.25, 0.25},
     {0.75, 0.5, 0.25, 0, 0, 0},
+    {0.5, 0.8, 0.95, 0.95, 0.95, 0.95},
+    {0.25, 0.5, 1, 4.0 / 3, 2, 4},
 }};
+/// Spreads are drawn at this allowed error of ground and objects, where levels of many errors are in view;
+/// this step of them leaves the distances.
+inline constexpr double kSpreadPx = 4;
+inline constexpr std::size_t kNoSpread = 2;
+
+/// So many settings move several levers at once: their errors show by how much estimates miss that are made
+/// from levers moved alone.
+inline constexpr std::size_t kTogether = 3;
+/// Returns an image at one of these settings.
+FrameRequest together(FrameRequest request, std::size_t setting);
 
 /// What one row of a flight showed.
 struct DrawnRow {
-  std::size_t row = 0;   ///< of the flight
-  double groundMpx = 0;  ///< millions of pixels that show ground
+  std::size_t row = 0;  ///< of the flight
   /// Triangles drawn over triangles counted, while hidden ground is looked for and while it is not.
   double drawnHidden = 1, drawnOpen = 1;
-  double flipAtRest = 0;  ///< mean FLIP of the image with every lever at rest
-  /// What a lever adds to that; 0 where it does nothing.
-  std::array<std::array<double, kLossSteps>, kLosses> flip{};
+  double atRest = 0;  ///< error of the image with every lever at rest
+  /// Errors of the images with one lever moved; 0 where it moves nothing.
+  std::array<std::array<double, kLossSteps>, kLosses> error{};
+  std::array<double, kTogether> together{};  ///< errors of images with several levers moved
   /// The part of the triangles that a value leaves: of objects for small_feature and object_distance, of all
-  /// for far_distance.
-  std::array<double, kLossSteps> smallKept{}, objectsKept{}, airKept{};
+  /// for far_distance, and of all at kSpreadPx for level_spread.
+  std::array<double, kLossSteps> smallKept{}, objectsKept{}, airKept{}, spreadKept{};
   double instances = 0;  ///< of objects in the image, all levers at rest
   /// The part of them that the values of small_feature and of object_distance leave.
   std::array<double, kLossSteps> smallInstances{}, farInstances{};
@@ -77,17 +92,24 @@ struct DrawnSamples {
 /// A row to draw: the image that the start asks for, the one before it, and what an index counts of it.
 struct SampleRow {
   std::size_t row = 0;
+  double turnDegps = 0;  ///< of the view since the row before
   FrameRequest request;
   std::optional<FrameRequest> before;
+  /// The images before that one which a blur reaches back to, oldest first, if blur is drawn in this row.
+  std::optional<std::vector<FrameRequest>> trail;
   double groundMpx = 0;
   /// Returns the triangles counted at an allowed error of the ground and of objects, pixels, LOD scale 1.
   std::function<double(double groundPx, double objectPx)> counted;
 };
 
-/// Draws the rows. Times are of whole images; losses are drawn at half the width and height, with the levels
-/// of the whole image. `goOn` is called between images; returning false stops, and nothing is returned.
+/// Returns how long a blur of this strength reaches back, seconds: until a sixty-fourth is left of an image,
+/// which is four grey levels at most.
+double blurReachS(double strength);
+
+/// Draws the rows. Times are of whole images; losses are drawn at ErrorKindRow::size, with the levels of the
+/// whole image. `goOn` is called between images; returning false stops, and nothing is returned.
 std::optional<DrawnSamples> drawSamples(experiment::Stage& stage, std::span<const SampleRow> rows,
-                                        const std::function<bool(double fraction)>& goOn);
+                                        ErrorKind kind, const std::function<bool(double fraction)>& goOn);
 
 /// Returns the samples as JSON, whose numbers read back bit for bit; and the inverse.
 std::string toJson(const DrawnSamples& samples);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cost_fit.h"
+#include "flight_rows.h"
 #include "lever_places.h"
 #include "trimtab/decision/decide.h"
 #include "trimtab/hold/arbiter.h"
@@ -18,30 +19,11 @@
 namespace trimtab::tune {
 namespace {
 
-/// Holds what the model knows of one row of a flight.
-struct Row {
-  std::size_t row = 0;  ///< of the flight
-  /// Its state, with the velocity that follows from those before; the ground is asked for by each preset.
-  FrameInput input;
-  std::optional<Metres> ground;  ///< height of the ground below
-  bool over = false;             ///< lies above the terrain, so that its image counts
-  double groundMpx = 0, imageMpx = 0;
-  Counted tiles{}, objects{};            ///< triangles of the ground and of objects
-  Counted tilesAhead{}, objectsAhead{};  ///< the most of this row and of those that a budget looks ahead to
-  // From the drawn rows before and after it.
-  double drawnHidden = 1, drawnOpen = 1;
-  double costs = 1;  ///< over the fitted cost
-  double flipAtRest = 0;
-  std::array<Steps, kLosses> flip{};  ///< that a lever adds
-  Steps smallKept{}, objectsKept{}, airKept{}, smallInstances{}, farInstances{};
-  double instances = 0;
-};
-
 /// Knows the ground below the row in hand, which is all that a decision asks for.
 class GroundOfRow final : public GroundHeights {
  public:
   explicit GroundOfRow(std::optional<Metres> highest) : highest_(highest) {}
-  void set(const Row& row) { row_ = &row; }
+  void set(const FlightRow& row) { row_ = &row; }
   std::optional<Metres> heightAt(Degrees, Degrees) const override {
     return row_ ? row_->ground : std::nullopt;
   }
@@ -49,97 +31,14 @@ class GroundOfRow final : public GroundHeights {
 
  private:
   std::optional<Metres> highest_;
-  const Row* row_ = nullptr;
-};
-
-/// Returns the start without whatever moves a lever.
-ValidatedParameters plain(const ValidatedParameters& start) {
-  TuningParameters p = *start;
-  p.policy.enabled = p.hold.enabled = false;
-  p.motion.control = MotionControl::off;
-  p.lod.scale = Ratio{1};
-  const Result<ValidatedParameters> valid = validate(p);
-  return valid ? *valid : start;
-}
-
-/// Counts a request's triangles over the ladder, and the ground's pixels.
-class Counter {
- public:
-  explicit Counter(const std::shared_ptr<const terrain::Database>& terrain) {
-    hold_.setIndex(scene::loadIndexOf(terrain));
-  }
-  void count(const FrameRequest& request, Row& row) {
-    for (const double from : {kLeastPx, 16 * kLeastPx}) {
-      const HoldGiven all = look(request, from, WeatherDecision::kUnlimited);
-      const HoldGiven ground = look(request, from, -1);  // no object is so near
-      const std::size_t first = from == kLeastPx ? 0 : 4 * kPlacesPerOctave;
-      for (std::size_t k = 0; k < kErrorSteps && first + k < kCounted; ++k) {
-        row.tiles[first + k] = static_cast<float>(ground.triangles[k]);
-        row.objects[first + k] = static_cast<float>(all.triangles[k] - ground.triangles[k]);
-      }
-      row.groundMpx = all.groundMpx;
-      row.imageMpx = all.imageMpx;
-    }
-  }
-
- private:
-  HoldGiven look(FrameRequest request, double errorPx, double objectFarM) {
-    FrameLevers& levers = request.levers.policy;
-    levers.errorPx = levers.objectErrorPx = errorPx;
-    levers.lodScale = 1;
-    levers.smallFeaturePx = 0;
-    levers.objectFarM = objectFarM;
-    request.levers.drawn = levers;
-    return hold_.look(request, {}, 0);
-  }
-  FrameHold hold_;
-};
-
-template <class Array>
-void mostOf(Array& most, const Array& other) {
-  for (std::size_t i = 0; i < most.size(); ++i) most[i] = std::max(most[i], other[i]);
-}
-
-/// Returns the nearest rank, whatever the number of samples.
-double rankOf(std::vector<double>& samples, double fraction) {
-  const auto rank = static_cast<std::size_t>(std::ceil(fraction * static_cast<double>(samples.size())));
-  const auto at =
-      samples.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(rank, 1, samples.size()) - 1);
-  std::nth_element(samples.begin(), at, samples.end());
-  return *at;
-}
-
-/// Returns the part of the way from one drawn row to the next, and their numbers.
-struct Between {
-  std::size_t before = 0, after = 0;
-  double part = 0;
-};
-Between betweenOf(const std::vector<DrawnRow>& drawn, std::size_t row) {
-  const auto after = std::lower_bound(drawn.begin(), drawn.end(), row,
-                                      [](const DrawnRow& d, std::size_t r) { return d.row < r; });
-  const auto at = static_cast<std::size_t>(after - drawn.begin());
-  if (at == drawn.size()) return {at - 1, at - 1, 0};
-  if (at == 0 || drawn[at].row == row) return {at, at, 0};
-  const double from = static_cast<double>(drawn[at - 1].row), to = static_cast<double>(drawn[at].row);
-  return {at - 1, at, (static_cast<double>(row) - from) / (to - from)};
-}
-
-/// The places of the levers in what the rows say.
-struct Places {
-  LeverPlace ground, objects;  ///< on the ladder
-  std::array<LeverPlace, kLosses> losses;
-
-  const Place& of(Loss loss, double value) {
-    return losses[static_cast<std::size_t>(loss)].at(value, [loss](double v) { return onSteps(loss, v); });
-  }
-  static Place ladderPlace(double errorPx) { return onLadder(ladderSteps(errorPx)); }
+  const FlightRow* row_ = nullptr;
 };
 
 /// The part of the triangles and instances of objects that smallest size and farthest distance leave.
 struct Kept {
   double triangles = 1, instances = 1;
 };
-Kept keptOf(const Row& row, const FrameLevers& levers, Places& places) {
+Kept keptOf(const FlightRow& row, const FrameLevers& levers, Places& places) {
   const Place &small = places.of(Loss::small_feature, levers.smallFeaturePx),
               &far = places.of(Loss::object_distance, levers.objectFarM);
   return {small.in(row.smallKept, 1) * far.in(row.objectsKept, 1),
@@ -164,8 +63,12 @@ bool onlyMovesLevers(const ParameterRow& row) {
 }  // namespace
 
 struct FlightModel::Impl {
-  std::vector<Row> rows;
-  std::vector<SampleRow> toDraw;
+  explicit Impl(ErrorKind errors) : kind(errors) {}
+  const ErrorKind kind;
+  /// Reports whether a preset's ground is drawn in the form that was counted.
+  bool counts(const TuningParameters& parameters) const;
+  LevelRule ruleOf(const TuningParameters& parameters) const;
+  CountedFlight flight;
   std::optional<Metres> highest;
   FittedCost cost;
   /// Holds the part by which the fitted costs miss the samples' times: its median and its 90th percentile.
@@ -173,19 +76,22 @@ struct FlightModel::Impl {
     double median = 0, p90 = 0;
   };
   Fit fit;
+  double errorP90 = 0;  ///< the part by which errors of several levers miss what is estimated of them
+  double errorOff(const DrawnSamples& samples) const;
 
   struct Image {
-    double ms = 0, triangles = 0, flip = 0;
+    double ms = 0, triangles = 0, error = 0;
   };
   /// What the arbiter of the budget remembers, and what it decided last.
   struct Holding {
     HoldMemory memory;
     HeldLevers last;
   };
-  Image imageOf(const Row& row, const FrameLevers& levers, const FrameDecision& decision,
-                Places& places) const;
-  HeldLevers hold(const Row& row, const FrameLevers& asked, const FrameDecision& decision,
-                  const TuningParameters& parameters, Places& places, Holding& holding) const;
+  Image imageOf(const FlightRow& row, const FrameLevers& levers, const FrameDecision& decision,
+                const LevelRule& rule, Places& places) const;
+  HeldLevers hold(const FlightRow& row, const FrameLevers& asked, const FrameDecision& decision,
+                  const TuningParameters& parameters, const LevelRule& rule, Places& places,
+                  Holding& holding) const;
 
   /// What the rows are before any rule, by the parameters of the last estimate: presets of which only levers
   /// and rules differ share it.
@@ -199,24 +105,28 @@ struct FlightModel::Impl {
 };
 
 /// Returns what an image under these levers takes and loses.
-FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameLevers& levers,
-                                                    const FrameDecision& decision, Places& places) const {
+FlightModel::Impl::Image FlightModel::Impl::imageOf(const FlightRow& row, const FrameLevers& levers,
+                                                    const FrameDecision& decision, const LevelRule& rule,
+                                                    Places& places) const {
   Image image;
-  image.flip = row.flipAtRest;
-  const double groundPx = levers.errorPx * levers.lodScale, objectPx = levers.objectErrorPx * levers.lodScale;
+  Losses losses(row.atRest);
+  const double counts = std::exp2(rule.octaves(levers, row.spreadCounts, places)),
+               loses = std::exp2(rule.octaves(levers, row.spreadLoses, places));
+  const double groundPx = rule.groundPx(levers), objectPx = rule.objectPx(levers);
   const auto lose = [&](Loss loss, double value) {
-    image.flip += places.of(loss, value).in(row.flip[static_cast<std::size_t>(loss)], 0);
+    losses.add(places.of(loss, value).in(row.error[static_cast<std::size_t>(loss)], row.atRest));
   };
   const Kept kept = keptOf(row, levers, places);
-  const double objects = places.objects.at(objectPx, Places::ladderPlace).in(row.objects) * kept.triangles;
-  lose(Loss::ground_error, groundPx);
+  const double objects =
+      places.objects.at(objectPx * counts, Places::ladderPlace).in(row.objects) * kept.triangles;
+  lose(Loss::ground_error, groundPx * loses);
   if (objects > 0) {
-    lose(Loss::object_error, objectPx);
+    lose(Loss::object_error, objectPx * loses);
     lose(Loss::small_feature, levers.smallFeaturePx);
     lose(Loss::object_distance, levers.objectFarM);
   }
   if (levers.renderScale < 1) lose(Loss::render_scale, levers.renderScale);
-  image.triangles = places.ground.at(groundPx, Places::ladderPlace).in(row.tiles) + objects;
+  image.triangles = places.ground.at(groundPx * counts, Places::ladderPlace).in(row.tiles) + objects;
   image.triangles *= levers.occlusion ? row.drawnHidden : row.drawnOpen;
   if (std::isfinite(levers.farM)) {
     const double part = levers.farM / decision.weather.farM;
@@ -225,32 +135,51 @@ FlightModel::Impl::Image FlightModel::Impl::imageOf(const Row& row, const FrameL
   }
   const double particles = particlesOf(decision) * levers.particleShare;
   if (levers.particleShare < 1 && particlesOf(decision) > 0) lose(Loss::particles, levers.particleShare);
+  if (levers.blurStrength > 0) lose(Loss::blur, levers.blurStrength);
   const double area = levers.renderScale * levers.renderScale;
-  const FrameLoad load{image.triangles, row.groundMpx * area, row.imageMpx * area, particles, false};
+  const FrameLoad load{image.triangles, row.groundMpx * area, row.imageMpx * area, particles,
+                       levers.blurStrength > 0};
   image.ms = cost(load, row.instances * kept.instances, levers.occlusion.has_value()) * row.costs;
-  image.flip = std::min(image.flip, 1.0);
+  image.error = std::min(losses.error(), rowOf(kind).greatest);
   return image;
 }
 
+bool FlightModel::Impl::counts(const TuningParameters& parameters) const {
+  FrameRequest request;
+  request.terrain = parameters.terrain;
+  return formDrawn(request, flight.forms) == flight.form;
+}
+
+LevelRule FlightModel::Impl::ruleOf(const TuningParameters& parameters) const {
+  LevelRule rule{flight.form == TerrainForm::static_trees};
+  if (rule.trees && parameters.staticLod.rule == StaticDistanceRule::factor)
+    rule.fixedPx = flight.pixelsPerRadian / parameters.staticLod.distancePerError.value();
+  const double spread = parameters.lod.spread.value(), fromM = parameters.lod.spreadFrom.value();
+  rule.fromOctaves = (1 - 1 / spread) * std::log2(fromM / flight.spreadFromM);
+  return rule;
+}
+
 /// Returns the levers to which the arbiter of the budget lowers a row's image.
-HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, const FrameDecision& decision,
-                                   const TuningParameters& parameters, Places& places,
-                                   Holding& holding) const {
+HeldLevers FlightModel::Impl::hold(const FlightRow& row, const FrameLevers& asked,
+                                   const FrameDecision& decision, const TuningParameters& parameters,
+                                   const LevelRule& rule, Places& places, Holding& holding) const {
   HoldGiven given;
   given.timeS = row.input.state.time;
   given.budgetMs = parameters.measure.budget.value();
   given.asked = {asked.errorPx, asked.renderScale, asked.particleShare, 1};
   given.particles = particlesOf(decision) * asked.particleShare;
+  given.blurs = asked.blurStrength > 0;
   given.imageMpx = row.imageMpx;
   given.groundMpx = row.groundMpx;
   const double drawn = asked.occlusion ? row.drawnHidden : row.drawnOpen;
-  const double tiles = ladderSteps(asked.errorPx * asked.lodScale);
-  const double objects = ladderSteps(asked.objectErrorPx * asked.lodScale);
+  const double spread = double{kPlacesPerOctave} * rule.octaves(asked, row.spreadCounts, places);
+  const double tiles = ladderSteps(rule.groundPx(asked)) + spread;
+  const double objects = ladderSteps(rule.objectPx(asked)) + spread;
   const double toNext = placesToNext(asked.errorPx);
   const Kept kept = keptOf(row, asked, places);
   for (std::size_t k = 0; k < kErrorSteps; ++k) {
     const double coarser = k == 0 ? 0 : toNext + static_cast<double>(k - 1);
-    given.triangles[k] = drawn * (onLadder(tiles + coarser).in(row.tilesAhead) +
+    given.triangles[k] = drawn * (onLadder(rule.fixedPx ? tiles : tiles + coarser).in(row.tilesAhead) +
                                   onLadder(objects + coarser).in(row.objectsAhead) * kept.triangles);
   }
   static_cast<ClockCoefficients&>(given.cost) = cost.coefficients;
@@ -259,7 +188,8 @@ HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, con
       (asked.occlusion ? cost.lookingMs : 0) + cost.perInstance * row.instances * kept.instances;
   for (double ClockCoefficients::*part :
        {&ClockCoefficients::fixed, &ClockCoefficients::perTriangle, &ClockCoefficients::perGroundMpx,
-        &ClockCoefficients::perParticles, &ClockCoefficients::perWeatherMpx, &ClockCoefficients::other})
+        &ClockCoefficients::perParticles, &ClockCoefficients::perWeatherMpx, &ClockCoefficients::perBlurMpx,
+        &ClockCoefficients::other})
     given.cost.*part *= row.costs;
   given.cost.known = true;
   // As in flight, the band is that of an image as it is likely to be drawn: with the levers of the last one.
@@ -275,63 +205,23 @@ HeldLevers FlightModel::Impl::hold(const Row& row, const FrameLevers& asked, con
 }
 
 FlightModel::FlightModel(const Scene& scene, const Flight& flight, const ValidatedParameters& start,
-                         std::size_t drawn)
-    : impl_(std::make_unique<Impl>()) {
+                         std::size_t drawn, ErrorKind kind)
+    : impl_(std::make_unique<Impl>(kind)) {
   impl_->highest = scene.terrain->highest();
-  const ValidatedParameters parameters = plain(start);
-  Session session(parameters);
-  session.setGround(scene.terrain);
-  Counter counter(scene.terrain);
-  const std::size_t count = std::min(flight.states.size(), kMostRows);
-  std::vector<FrameRequest> requests;
-  for (std::size_t i = 0; i < count; ++i) {
-    Row row;
-    row.row = i * flight.states.size() / count;
-    const AircraftState& state = flight.states[row.row];
-    session.fly(state, state.time);
-    row.input.state = session.input().state;
-    row.ground = scene.terrain->heightAt(state.position.latitude, state.position.longitude);
-    row.over = scene::liesOver(scene.terrain->info(), state.position);
-    // Only a session without a state has none.
-    requests.push_back(*session.request(state.time, scene.widthPx, scene.heightPx));
-    row.input.state.velocity = requests.back().velocity;
-    if (row.over) counter.count(requests.back(), row);
-    impl_->rows.push_back(std::move(row));
-  }
-  std::vector<Row>& rows = impl_->rows;
-  const auto ahead = static_cast<std::size_t>(start->hold.lookAhead.value());
-  std::vector<std::size_t> over;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].over) over.push_back(i);
-    rows[i].tilesAhead = rows[i].tiles;
-    rows[i].objectsAhead = rows[i].objects;
-    for (std::size_t j = i + 1; j < rows.size() && rows[j].row <= rows[i].row + ahead; ++j) {
-      mostOf(rows[i].tilesAhead, rows[j].tiles);
-      mostOf(rows[i].objectsAhead, rows[j].objects);
-    }
-  }
-  const std::size_t samples = std::min(drawn, over.size());
-  for (std::size_t k = 0; k < samples; ++k) {
-    const std::size_t i = over[(2 * k + 1) * over.size() / (2 * samples)];
-    SampleRow sample{rows[i].row, requests[i], std::nullopt, rows[i].groundMpx, {}};
-    if (i > 0) sample.before = requests[i - 1];
-    sample.counted = [tiles = rows[i].tiles, objects = rows[i].objects](double groundPx, double objectPx) {
-      return Places::ladderPlace(groundPx).in(tiles) + Places::ladderPlace(objectPx).in(objects);
-    };
-    impl_->toDraw.push_back(std::move(sample));
-  }
+  impl_->flight = countFlight(scene, flight, start, kMostRows, drawn);
 }
 
 FlightModel::~FlightModel() = default;
 FlightModel::FlightModel(FlightModel&&) noexcept = default;
 
 const std::vector<SampleRow>& FlightModel::toDraw() const {
-  return impl_->toDraw;
+  return impl_->flight.toDraw;
 }
 
 double FlightModel::emptyMs() const {
   double most = 0;
-  for (const Row& row : impl_->rows) most = std::max(most, impl_->cost({}, 0, false) * row.costs);
+  for (const FlightRow& row : impl_->flight.rows)
+    most = std::max(most, impl_->cost({}, 0, false) * row.costs);
   return most;
 }
 
@@ -353,32 +243,25 @@ void FlightModel::learn(const DrawnSamples& samples) {
     for (const double ratio : ofRepeats) off.push_back(std::abs(ratio / costs[r] - 1));
   }
   if (!off.empty()) impl_->fit = {rankOf(off, 0.5), rankOf(off, 0.9)};
-  const auto mix = [](const auto& a, const auto& b, double part, Steps& into) {
-    for (std::size_t s = 0; s < kLossSteps; ++s) into[s] = static_cast<float>(std::lerp(a[s], b[s], part));
-  };
-  for (Row& row : impl_->rows) {
-    if (samples.rows.empty()) break;
-    const Between at = betweenOf(samples.rows, row.row);
-    const DrawnRow &a = samples.rows[at.before], &b = samples.rows[at.after];
-    row.costs = std::lerp(costs[at.before], costs[at.after], at.part);
-    row.drawnHidden = std::lerp(a.drawnHidden, b.drawnHidden, at.part);
-    row.drawnOpen = std::lerp(a.drawnOpen, b.drawnOpen, at.part);
-    // Where little ground is in the image, little of it is seen to be coarse.
-    const double sampled = std::lerp(a.groundMpx, b.groundMpx, at.part);
-    const double ground = sampled > 0 ? row.groundMpx / sampled : 0;
-    row.flipAtRest = std::lerp(a.flipAtRest, b.flipAtRest, at.part) * ground;
-    for (std::size_t l = 0; l < kLosses; ++l) {
-      mix(a.flip[l], b.flip[l], at.part, row.flip[l]);
-      if (static_cast<Loss>(l) == Loss::particles) continue;
-      for (float& flip : row.flip[l]) flip *= static_cast<float>(ground);
+  takeSamples(impl_->flight, impl_->kind, samples, costs);
+  impl_->errorP90 = impl_->errorOff(samples);
+}
+
+/// Returns the part by which nine of ten errors of several levers miss at most what is estimated of them.
+double FlightModel::Impl::errorOff(const DrawnSamples& samples) const {
+  Places places;
+  std::vector<double> off;
+  for (std::size_t r = 0; r < samples.rows.size(); ++r) {
+    const SampleRow& sample = flight.toDraw[r];
+    const auto row = std::ranges::find(flight.rows, sample.row, &FlightRow::row);
+    for (std::size_t setting = 0; setting < kTogether; ++setting) {
+      const FrameLevers levers = together(sample.request, setting).levers.drawn;
+      const LevelRule rule{flight.form == TerrainForm::static_trees};
+      const double estimated = imageOf(*row, levers, sample.request.decision, rule, places).error;
+      if (estimated > 0) off.push_back(std::abs(samples.rows[r].together[setting] / estimated - 1));
     }
-    mix(a.smallKept, b.smallKept, at.part, row.smallKept);
-    mix(a.objectsKept, b.objectsKept, at.part, row.objectsKept);
-    mix(a.airKept, b.airKept, at.part, row.airKept);
-    mix(a.smallInstances, b.smallInstances, at.part, row.smallInstances);
-    mix(a.farInstances, b.farInstances, at.part, row.farInstances);
-    row.instances = std::lerp(a.instances, b.instances, at.part);
   }
+  return off.empty() ? 0 : rankOf(off, 0.9);
 }
 
 /// Decides the rows without rules, unless the parameters that count for it are those of the last time.
@@ -398,8 +281,8 @@ void FlightModel::Impl::fly(const ValidatedParameters& parameters) {
   // A watched decider also knows the height above ground, for which a rule may ask.
   if (signalsFlown) decider.watchSignals();
   flown.clear();
-  flown.reserve(rows.size());
-  for (const Row& row : rows) {
+  flown.reserve(flight.rows.size());
+  for (const FlightRow& row : flight.rows) {
     ground->set(row);
     FrameInput input = row.input;
     input.aboveGround = decider.groundBelow(input.state);
@@ -411,6 +294,7 @@ void FlightModel::Impl::fly(const ValidatedParameters& parameters) {
 }
 
 Estimate FlightModel::estimate(const ValidatedParameters& parameters, std::vector<RowEstimate>* rows) const {
+  if (!impl_->counts(*parameters)) return {kNan, kNan, kNan, kNan, kNan};
   impl_->fly(parameters);
   const CompiledPolicy* const policy = parameters.policy();
   const double budgetMs = parameters->measure.budget.value();
@@ -420,11 +304,13 @@ Estimate FlightModel::estimate(const ValidatedParameters& parameters, std::vecto
   Impl::Holding holding;
   ImageSignals images;
   Places places;
-  std::vector<double> ms;
-  ms.reserve(impl_->rows.size());
-  double flip = 0, sumMs = 0;
-  for (std::size_t i = 0; i < impl_->rows.size(); ++i) {
-    const Row& row = impl_->rows[i];
+  const LevelRule rule = impl_->ruleOf(*parameters);
+  std::vector<double> ms, errors;
+  ms.reserve(impl_->flight.rows.size());
+  errors.reserve(impl_->flight.rows.size());
+  double sumMs = 0;
+  for (std::size_t i = 0; i < impl_->flight.rows.size(); ++i) {
+    const FlightRow& row = impl_->flight.rows[i];
     const Flown& flown = impl_->flown[i];
     FrameDecision decision = flown.decision;
     if (policy != nullptr) {
@@ -436,18 +322,20 @@ Estimate FlightModel::estimate(const ValidatedParameters& parameters, std::vecto
     if (!row.over) continue;
     FrameLevers levers = askedLevers(decision, *parameters);
     if (parameters->hold.enabled)
-      levers = withBudget(levers, impl_->hold(row, levers, decision, *parameters, places, holding));
-    const Impl::Image image = impl_->imageOf(row, levers, decision, places);
+      levers = withBudget(levers, impl_->hold(row, levers, decision, *parameters, rule, places, holding));
+    const Impl::Image image = impl_->imageOf(row, levers, decision, rule, places);
     if (policy != nullptr)
       images.finished(timed ? image.ms : kNan, budgetMs, static_cast<std::uint64_t>(image.triangles));
     ms.push_back(image.ms);
     sumMs += image.ms;
-    flip += image.flip;
-    if (rows != nullptr) rows->push_back({row.row, image.ms, image.flip});
+    errors.push_back(image.error);
+    if (rows != nullptr) rows->push_back({row.row, image.ms, image.error});
   }
   if (ms.empty()) return {};
   const double count = static_cast<double>(ms.size());
-  return {rankOf(ms, 0.5), rankOf(ms, 0.95), rankOf(ms, 0.99), sumMs / count, flip / count};
+  return {
+      rankOf(ms, 0.5), rankOf(ms, 0.95), rankOf(ms, 0.99), sumMs / count, errorOfImages(impl_->kind, errors),
+      impl_->fit.p90,  impl_->errorP90};
 }
 
 }  // namespace trimtab::tune

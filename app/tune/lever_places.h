@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "drawn_samples.h"
 #include "trimtab/hold/load_counter.h"
@@ -53,6 +54,36 @@ class LeverPlace {
  private:
   double value_ = kNan;
   Place place_;
+};
+
+/// The places of the levers in what the rows say.
+struct Places {
+  LeverPlace ground, objects;  ///< on the ladder
+  std::array<LeverPlace, kLosses> losses;
+
+  const Place& of(Loss loss, double value) {
+    return losses[static_cast<std::size_t>(loss)].at(value, [loss](double v) { return onSteps(loss, v); });
+  }
+  static Place ladderPlace(double errorPx) { return onLadder(ladderSteps(errorPx)); }
+};
+
+/// Says which levels a preset draws at its levers.
+struct LevelRule {
+  bool trees = false;               ///< the ground is drawn as static trees
+  std::optional<double> fixedPx{};  ///< the trees' rule allows this error, whatever the levers say
+  /// A spread from another distance than the one that samples are drawn with is as if the allowed error were
+  /// so many octaves larger; 0 without a spread.
+  double fromOctaves = 0;
+
+  double groundPx(const FrameLevers& levers) const {
+    return (fixedPx ? *fixedPx : trees ? levers.treeErrorPx : levers.errorPx) * levers.lodScale;
+  }
+  static double objectPx(const FrameLevers& levers) { return levers.objectErrorPx * levers.lodScale; }
+  /// Returns by how many octaves of the allowed error a spread changes what a row says of it.
+  double octaves(const FrameLevers& levers, const Steps& ofRow, Places& places) const {
+    if (levers.levelSpread == 1) return 0;
+    return fromOctaves + places.of(Loss::level_spread, levers.levelSpread).in(ofRow);
+  }
 };
 
 }  // namespace trimtab::tune

@@ -28,6 +28,7 @@ harness::PlanLines identityOf(const Plan& plan, const std::string& machine) {
           {"time", plan.time == TimeMeasure::median ? "median"
                    : plan.time == TimeMeasure::p95  ? "p95"
                                                     : "p99"},
+          {"error", std::string(rowOf(plan.error).key)},
           {"drawn rows", std::to_string(plan.drawnRows)},
           {"evaluations", std::to_string(plan.evaluations)},
           {"searches", std::to_string(plan.searches)},

@@ -29,9 +29,10 @@ std::vector<std::size_t> rowsApart(std::span<const std::vector<RowEstimate>> est
       RowEstimate least = estimates.front()[i], most = least;
       for (const std::vector<RowEstimate>& preset : estimates) {
         least.ms = std::min(least.ms, preset[i].ms), most.ms = std::max(most.ms, preset[i].ms);
-        least.flip = std::min(least.flip, preset[i].flip), most.flip = std::max(most.flip, preset[i].flip);
+        least.error = std::min(least.error, preset[i].error),
+        most.error = std::max(most.error, preset[i].error);
       }
-      const double far = spreadOf(least.ms, most.ms) + spreadOf(least.flip, most.flip);
+      const double far = spreadOf(least.ms, most.ms) + spreadOf(least.error, most.error);
       if (far > farthest) farthest = far, row = least.row;
     }
     apart.push_back(row);
@@ -39,15 +40,21 @@ std::vector<std::size_t> rowsApart(std::span<const std::vector<RowEstimate>> est
   return apart;
 }
 
-Missed missedBy(std::span<const RowEstimate> estimates, std::span<const harness::MeasuredFrame> drawn) {
-  double estimatedMs = 0, drawnMs = 0, estimatedFlip = 0, drawnFlip = 0;
+Missed missedBy(ErrorKind kind, std::span<const RowEstimate> estimates,
+                std::span<const harness::MeasuredFrame> drawn) {
+  double estimatedMs = 0, drawnMs = 0;
+  std::vector<double> estimatedErrors, drawnErrors;
   for (const harness::MeasuredFrame& frame : drawn)
     for (const RowEstimate& estimate : estimates) {
       if (estimate.row != frame.row) continue;
       estimatedMs += estimate.ms, drawnMs += frame.cost.total;
-      estimatedFlip += estimate.flip, drawnFlip += frame.error.flip;
+      const double error = frame.error.*rowOf(kind).ofImage;
+      if (!std::isfinite(error)) continue;
+      estimatedErrors.push_back(estimate.error), drawnErrors.push_back(error);
     }
-  return {ratioOf(drawnMs, estimatedMs), ratioOf(drawnFlip, estimatedFlip)};
+  if (drawnErrors.empty()) return {ratioOf(drawnMs, estimatedMs), 1};
+  return {ratioOf(drawnMs, estimatedMs),
+          ratioOf(errorOfImages(kind, drawnErrors), errorOfImages(kind, estimatedErrors))};
 }
 
 }  // namespace trimtab::tune

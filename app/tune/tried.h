@@ -15,10 +15,12 @@ namespace trimtab::tune {
 /// their estimates lie farthest apart in time and error. `estimates` has the same rows for each preset.
 std::vector<std::size_t> rowsApart(std::span<const std::vector<RowEstimate>> estimates, std::size_t count);
 
-/// What was drawn over what was estimated, of the sums over the rows that were drawn; 1 where either is 0.
+/// What was drawn over what was estimated, of the rows that were drawn: sums of times, and errors as
+/// errorOfImages() has them; 1 where either is 0 or unknown.
 struct Missed {
   double time = 1, error = 1;
 };
-Missed missedBy(std::span<const RowEstimate> estimates, std::span<const harness::MeasuredFrame> drawn);
+Missed missedBy(ErrorKind kind, std::span<const RowEstimate> estimates,
+                std::span<const harness::MeasuredFrame> drawn);
 
 }  // namespace trimtab::tune

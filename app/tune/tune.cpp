@@ -13,6 +13,7 @@
 #include "run_folder.h"
 #include "search_space.h"
 #include "tried.h"
+#include "trimtab/measure/statistics.h"
 #include "trimtab/preset/preset.h"
 #include "trimtab/scene/load_index.h"
 #include "trimtab/units/not_finite.h"
@@ -57,6 +58,14 @@ Findings faultsOf(const Plan& plan) {
   if (plan.budgetMs && !(*plan.budgetMs >= budget.low && *plan.budgetMs <= budget.high))
     faults.push_back(fault("--budget-ms", numberText(budget.low) + " to " + numberText(budget.high) + " ms",
                            numberText(*plan.budgetMs) + " ms"));
+  const ErrorKindRow& error = rowOf(plan.error);
+  if (plan.maxError && !(*plan.maxError > 0 && *plan.maxError <= error.greatest))
+    faults.push_back(fault(
+        "--max-error", "a " + std::string(error.words) + " above 0 and at most " + numberText(error.greatest),
+        numberText(*plan.maxError)));
+  if (plan.error == ErrorKind::pop && !isEnoughFor(0.95, plan.frames))
+    faults.push_back(fault("--frames", "frames enough for a 95th percentile of pops, at least 20",
+                           std::to_string(plan.frames)));
   std::set<std::string> names;
   std::map<std::string, std::string> seen;  ///< names by what is flown
   for (const auto* list : {&plan.flights, &plan.heldOut})
@@ -164,12 +173,19 @@ Findings Run::makeModels() {
   for (std::size_t i = 0; i < flights(); ++i) {
     if (!goOn(0, "counting the triangles of " + flight(i).name)) return stopped();
     models_.emplace_back(FlightModel::Scene{plan_.terrain, plan_.widthPx, plan_.heightPx}, flight(i).flight,
-                         plan_.start, plan_.drawnRows);
+                         plan_.start, plan_.drawnRows, plan_.error);
     if (models_.back().toDraw().empty())
       return {fault(flight(i).name.c_str(), "a flight over the terrain " + plan_.terrainName,
                     "none of its " + std::to_string(flight(i).flight.states.size()) + " rows lies over it")};
   }
   outcome_.buildS = workedS() - begin;
+  const auto isTreeError = [](const Axis& axis) { return axis.name == "static_lod.error"; };
+  if (plan_.start->terrain.form == TerrainForm::static_trees &&
+      std::ranges::any_of(space_.axes(), isTreeError))
+    outcome_.notes.push_back(
+        "Estimates take the errors of static trees as the start's static_lod.error measures them: what "
+        "another "
+        "measure draws shows where presets are drawn.");
   return {};
 }
 
@@ -181,7 +197,7 @@ Findings Run::drawAll() {
       continue;
     }
     if (!samples) {
-      samples = drawSamples(stage_, models_[i].toDraw(), [&](double part) {
+      samples = drawSamples(stage_, models_[i].toDraw(), plan_.error, [&](double part) {
         return goOn(kSamplesPart * (static_cast<double>(i) + part) / static_cast<double>(flights()),
                     "drawing samples of " + flight(i).name);
       });
@@ -343,7 +359,7 @@ Findings Run::tryOut() {
     for (const harness::Unit& unit : results->units)
       for (std::size_t i = 0; i < seen().size(); ++i)
         if (unit.name.preset == plan.presets[p].name && unit.name.flight == plan.flights[i].name)
-          missed[i] = missedBy(estimates[i][p], unit.frames);
+          missed[i] = missedBy(plan_.error, estimates[i][p], unit.frames);
     corrected.push_back({tried[p].place, judge.of(plan.presets[p].parameters, missed)});
     for (const Missed& m : missed) times.push_back(m.time), errors.push_back(m.error);
   }

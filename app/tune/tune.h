@@ -30,9 +30,10 @@ struct Plan {
   std::string startName = "default";
   ValidatedParameters start = defaultParameters();
   std::vector<std::string> free;  ///< as SearchSpace::make() reads them
-  /// At most one of the two is set: the longest time, milliseconds, or the greatest mean FLIP.
+  /// At most one of the two is set: the longest time, milliseconds, or the greatest error, in its own unit.
   std::optional<double> budgetMs, maxError;
   TimeMeasure time = TimeMeasure::p95;
+  ErrorKind error = ErrorKind::flip;
   int widthPx = 1280, heightPx = 720;
   std::size_t drawnRows = 12;       ///< rows of a flight that estimates are made from
   std::size_t evaluations = 20000;  ///< of each search

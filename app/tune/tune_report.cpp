@@ -4,6 +4,7 @@
 #include "trimtab/measure/machine_watch.h"
 #include "trimtab/units/number.h"
 #include "tune.h"
+#include "verdict.h"
 
 namespace trimtab::tune {
 namespace {
@@ -20,9 +21,15 @@ Cell cellOf(double value) {
   return std::isfinite(value) ? Cell(value) : Cell();
 }
 
+/// Returns an end of an estimate's band, a part of it away from it.
+Cell bandEnd(double estimate, double part) {
+  return cellOf(std::max(estimate * (1 + part), 0.0));
+}
+
 }  // namespace
 
 experiment::Report toReport(const Plan& plan, const Outcome& outcome) {
+  const ErrorKindRow& error = rowOf(plan.error);
   experiment::Report report;
   report.name = "tune";
   report.source = "Search for presets";
@@ -47,7 +54,11 @@ experiment::Report toReport(const Plan& plan, const Outcome& outcome) {
                            {"geometric_px", cellOf(row.geometricPx)},
                            {"pop", cellOf(row.pop)},
                            {"estimated_p95_ms", cellOf(estimate.p95Ms)},
-                           {"estimated_flip", cellOf(estimate.flip)}});
+                           {"estimated_p95_low_ms", bandEnd(estimate.p95Ms, -estimate.timeBand)},
+                           {"estimated_p95_high_ms", bandEnd(estimate.p95Ms, estimate.timeBand)},
+                           {error.estimate, cellOf(estimate.error)},
+                           {error.estimateLow, bandEnd(estimate.error, -estimate.errorBand)},
+                           {error.estimateHigh, bandEnd(estimate.error, estimate.errorBand)}});
     }
   for (const Tuned& preset : outcome.presets) {
     if (preset.role == Role::start || preset.role == Role::standard) continue;
@@ -61,17 +72,18 @@ experiment::Report toReport(const Plan& plan, const Outcome& outcome) {
     report.notes.push_back(text + '.');
   }
   report.notes.insert(report.notes.end(), outcome.notes.begin(), outcome.notes.end());
-  report.notes.push_back("Times and errors are drawn as flown, the presets in turns, " +
-                         std::to_string(plan.frames) + " frames of each flight at " +
-                         std::to_string(plan.widthPx) + " x " + std::to_string(plan.heightPx) +
-                         ". Estimates come from " + std::to_string(plan.drawnRows) +
-                         " drawn rows of a flight and are no bounds.");
+  report.notes.push_back(
+      "Times and errors are drawn as flown, the presets in turns, " + std::to_string(plan.frames) +
+      " frames of each flight at " + std::to_string(plan.widthPx) + " x " + std::to_string(plan.heightPx) +
+      ". Estimates come from " + std::to_string(plan.drawnRows) +
+      " drawn rows of a flight. Their bands are fitted: nine of ten images of those rows lie "
+      "within them, in time and, with several levers moved, in error. They are no bounds.");
   if (const std::string busy = busyText(outcome.othersShare); !busy.empty()) report.notes.push_back(busy);
   experiment::Plot plot;
   plot.file = "front";
   plot.title = "Run time against error";
   plot.xLabel = "p95 of the frame time, ms";
-  plot.yLabel = "mean FLIP";
+  plot.yLabel = error.words;
   for (const bool seen : {true, false})
     for (std::size_t role = 0; role < 5; ++role) {
       experiment::Series series;
@@ -83,7 +95,7 @@ experiment::Report toReport(const Plan& plan, const Outcome& outcome) {
           const harness::AnswerRow& row = preset.measured[i];
           if (seen != (i < plan.flights.size()) || !std::isfinite(row.p95Ms)) continue;
           series.x.push_back(row.p95Ms);
-          series.y.push_back(row.flip);
+          series.y.push_back(measuredError(plan, row));
           series.xLow.push_back(row.p95BoundsMs.low);
           series.xHigh.push_back(row.p95BoundsMs.high);
         }

@@ -10,19 +10,21 @@ namespace {
 
 /// Reports whether a preset keeps what the plan asks for on the flights [first, first + count).
 bool fits(const Plan& plan, const Tuned& preset, std::size_t first, std::size_t count) {
-  if (plan.maxError) return meanFlip(preset, first, count) <= *plan.maxError;
+  if (plan.maxError) return measuredError(plan, preset, first, count) <= *plan.maxError;
   return !plan.budgetMs || longestMs(plan, preset, first, count) <= *plan.budgetMs;
 }
 
 /// Returns what is to be small where the limit is kept.
 double worth(const Plan& plan, const Tuned& preset) {
   const std::size_t count = plan.flights.size();
-  return plan.maxError ? longestMs(plan, preset, 0, count) : meanFlip(preset, 0, count);
+  return plan.maxError ? longestMs(plan, preset, 0, count) : measuredError(plan, preset, 0, count);
 }
 
 std::string limitOf(const Plan& plan) {
-  return plan.budgetMs ? "Within " + numberText(*plan.budgetMs, 4) + " ms"
-                       : "Within a mean FLIP of " + numberText(*plan.maxError, 3);
+  if (plan.budgetMs) return "Within " + numberText(*plan.budgetMs, 4) + " ms";
+  const ErrorKindRow& error = rowOf(plan.error);
+  return "Within a " + std::string(error.words) + " of " + numberText(*plan.maxError, 3) +
+         std::string(error.unit);
 }
 
 std::string timeText(const harness::AnswerRow& row) {
@@ -55,20 +57,25 @@ double longestMs(const Plan& plan, const Tuned& preset, std::size_t first, std::
   return longest;
 }
 
-double meanFlip(const Tuned& preset, std::size_t first, std::size_t count) {
-  double sum = 0;
+double measuredError(const Plan& plan, const harness::AnswerRow& row) {
+  return row.*rowOf(plan.error).drawn;
+}
+
+double measuredError(const Plan& plan, const Tuned& preset, std::size_t first, std::size_t count) {
+  std::vector<double> flights;
   for (std::size_t i = first; i < first + count && i < preset.measured.size(); ++i)
-    sum += preset.measured[i].flip;
-  return sum / static_cast<double>(count);
+    flights.push_back(measuredError(plan, preset.measured[i]));
+  return errorOfFlights(plan.error, flights);
 }
 
 void markFront(const Plan& plan, std::vector<Tuned>& presets) {
   const std::size_t count = plan.flights.size();
   for (Tuned& preset : presets) {
-    const double ms = longestMs(plan, preset, 0, count), flip = meanFlip(preset, 0, count);
+    const double ms = longestMs(plan, preset, 0, count), error = measuredError(plan, preset, 0, count);
     preset.onFront = std::none_of(presets.begin(), presets.end(), [&](const Tuned& other) {
-      const double otherMs = longestMs(plan, other, 0, count), otherFlip = meanFlip(other, 0, count);
-      return otherMs <= ms && otherFlip <= flip && (otherMs < ms || otherFlip < flip);
+      const double otherMs = longestMs(plan, other, 0, count),
+                   otherError = measuredError(plan, other, 0, count);
+      return otherMs <= ms && otherError <= error && (otherMs < ms || otherError < error);
     });
   }
 }
@@ -98,11 +105,11 @@ std::string answerOf(const Plan& plan, const std::vector<Tuned>& presets) {
     const harness::AnswerRow& row = best->measured[first + i];
     text += (i == 0 ? ", " : "; ");
     if (count > 1) text += (proven ? plan.heldOut[i] : plan.flights[i]).name + ' ';
-    text += timeText(row) + ", FLIP " + numberText(row.flip, 2);
+    text += timeText(row) + ", " + errorText(plan.error, measuredError(plan, row));
   }
   const Tuned& start = presets.front();
-  text += "; " + start.name + ' ' + numberText(longestMs(plan, start, first, count), 3) + " ms, FLIP " +
-          numberText(meanFlip(start, first, count), 2) + '.';
+  text += "; " + start.name + ' ' + numberText(longestMs(plan, start, first, count), 3) + " ms, " +
+          errorText(plan.error, measuredError(plan, start, first, count)) + '.';
   if (!proven) text += kNotProven;
   return text;
 }

@@ -239,4 +239,10 @@ GeometricError geometricError(std::span<const float> reference, std::span<const 
   return {std::max(there.maxPx, back.maxPx), std::max(there.meanPx, back.meanPx)};
 }
 
+std::vector<float> distancesUpTo(double farM, std::vector<float> distances) {
+  for (float& distance : distances)
+    if (double{distance} > farM) distance = std::numeric_limits<float>::infinity();
+  return distances;
+}
+
 }  // namespace trimtab

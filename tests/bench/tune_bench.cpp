@@ -50,7 +50,7 @@ double perSecond(const tune::FlightModel& model, const TuningParameters& start,
     for (double& at : place) at = static_cast<double>(random() >> 11) * 0x1p-53;
     const auto valid = validate(space->at(place));
     if (!valid) continue;
-    sum += model.estimate(*valid).flip;
+    sum += model.estimate(*valid).error;
     ++made;
   }
   keep(sum);
@@ -129,7 +129,7 @@ void rankRows(Report& report, experiment::Stage& stage,
   for (const ValidatedParameters& preset : all) {
     const tune::Estimate estimate = model.estimate(preset);
     estimatedMs.push_back(estimate.meanMs);
-    estimatedFlip.push_back(estimate.flip);
+    estimatedFlip.push_back(estimate.error);
   }
   const std::string of = std::to_string(presets) + " presets, half of them policies, " +
                          std::to_string(sampled.size()) + " frames each";
@@ -163,7 +163,8 @@ int run(int argc, char** argv) {
   setup.heightPx = kHeight;
   const auto stage = experiment::Stage::open(setup);
   if (!stage) return 1;
-  model.learn(*tune::drawSamples(**stage, model.toDraw(), [](double) { return true; }));
+  model.learn(
+      *tune::drawSamples(**stage, model.toDraw(), tune::ErrorKind::flip, [](double) { return true; }));
   const int count = report.quick() ? 300 : 2000;
   const TuningParameters low = loadPreset("low-level").value().parameters;
   TuningParameters held;

@@ -71,10 +71,13 @@ TEST_F(SearchPage, findsPresetsAlongTheFlightAndFliesTheOneThatIsChosen) {
   EXPECT_FALSE(page().running());
   EXPECT_TRUE(labelSays(page(), "Ctrl+L opens one")) << "it needs a flight";
   ASSERT_TRUE(w().controllers().flight->open(QString::fromStdString(sampleFlight())));
+  for (QComboBox* choice : page().findChildren<QComboBox*>())
+    choice->setCurrentText(QStringLiteral("Geometric, px"));
   run();
   ASSERT_TRUE(ends()) << w().messages().text().toStdString();
   ASSERT_TRUE(page().report());
   EXPECT_TRUE(labelSays(page(), "No limit was asked for"));
+  EXPECT_EQ(page().report()->plots.front().yLabel, "largest geometric error");
   QTableWidget& table = *page().findChild<QTableWidget*>();
   ASSERT_GT(table.rowCount(), 1);
   // The first row is the preset that the search began from: there is nothing to use.

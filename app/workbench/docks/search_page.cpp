@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "search_page.h"
 
+#include <QComboBox>
 #include <QCryptographicHash>
 #include <QDir>
 #include <QDoubleSpinBox>
@@ -43,6 +44,7 @@ SearchPage::SearchPage(LeveragePage::Source source, QWidget* parent)
       size_(new QLineEdit(QStringLiteral("1280x720"), this)),
       frames_(new QSpinBox(this)),
       evaluations_(new QSpinBox(this)),
+      error_(new QComboBox(this)),
       choose_(new QPushButton(tr("C&hoose…"), this)),
       run_(new QPushButton(tr("&Search"), this)),
       use_(new QPushButton(tr("&Use preset"), this)),
@@ -72,6 +74,11 @@ SearchPage::SearchPage(LeveragePage::Source source, QWidget* parent)
   evaluations_->setRange(100, 10000000);
   evaluations_->setValue(20000);
   evaluations_->setToolTip(tr("Presets that the search estimates"));
+  error_->addItem(tr("FLIP"), QStringLiteral("flip"));
+  error_->addItem(tr("Geometric, px"), QStringLiteral("geometric"));
+  error_->addItem(tr("Pops"), QStringLiteral("pop"));
+  error_->setToolTip(
+      tr("The error that is made small: mean FLIP, largest geometric error, or 95th percentile of the pops"));
   status_->setWordWrap(true);
   status_->setTextInteractionFlags(Qt::TextSelectableByMouse);
 
@@ -89,6 +96,7 @@ SearchPage::SearchPage(LeveragePage::Source source, QWidget* parent)
   labelled(tr("Si&ze"), size_);
   labelled(tr("F&rames"), frames_);
   labelled(tr("&Estimates"), evaluations_);
+  labelled(tr("Err&or"), error_);
   numbers->addStretch(1);
   numbers->addWidget(run_);
   numbers->addWidget(makePauseButton(child_, this));
@@ -150,7 +158,7 @@ void SearchPage::setRunning(bool running) {
   for (QWidget* field :
        {static_cast<QWidget*>(budget_), static_cast<QWidget*>(free_), static_cast<QWidget*>(heldOut_),
         static_cast<QWidget*>(size_), static_cast<QWidget*>(frames_), static_cast<QWidget*>(evaluations_),
-        static_cast<QWidget*>(choose_)})
+        static_cast<QWidget*>(choose_), static_cast<QWidget*>(error_)})
     field->setEnabled(!running);
   if (!running && !report())
     status_->setText(
@@ -181,6 +189,8 @@ void SearchPage::run() {
                         QString::number(frames_->value()),
                         QStringLiteral("--evaluations"),
                         QString::number(evaluations_->value()),
+                        QStringLiteral("--error"),
+                        error_->currentData().toString(),
                         QStringLiteral("--json")};
   if (budget_->value() > 0) arguments << QStringLiteral("--budget-ms") << QString::number(budget_->value());
   if (!heldOut_->text().trimmed().isEmpty())

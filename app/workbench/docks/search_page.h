@@ -6,6 +6,7 @@
 
 #include "leverage_page.h"
 
+class QComboBox;
 class QDoubleSpinBox;
 class QLineEdit;
 class QSpinBox;
@@ -56,6 +57,7 @@ class SearchPage : public QWidget {
   QDoubleSpinBox* budget_;
   QLineEdit *free_, *heldOut_, *size_;
   QSpinBox *frames_, *evaluations_;
+  QComboBox* error_;
   QPushButton *choose_, *run_, *use_, *compare_, *save_;
   QProgressBar* progress_;
   QLabel* status_;

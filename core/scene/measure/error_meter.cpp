@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "core/scene/gl/frame_buffer.h"
 #include "core/scene/gl/gl_api.h"
@@ -78,14 +77,6 @@ double hiddenShare(const std::vector<std::uint32_t>& nodes, const VisibleSet& vi
   const auto hidden = std::count_if(visible.tiles.begin(), visible.tiles.end(),
                                     [&](const TileDraw& tile) { return owns[tile.node] == 0; });
   return static_cast<double>(hidden) / static_cast<double>(visible.tiles.size());
-}
-
-/// Returns the distances up to the far cut. What the cut takes from an image shows in its colours, as fog.
-std::vector<float> upTo(double farM, std::vector<float> distances) {
-  if (farM < WeatherDecision::kUnlimited)
-    for (float& distance : distances)
-      if (double{distance} > farM) distance = std::numeric_limits<float>::infinity();
-  return distances;
 }
 
 }  // namespace
@@ -315,7 +306,8 @@ FrameError ErrorMeter::measure(const FrameRequest& request, std::span<const Fram
   plant(m.renderer, {});
   bound.restore();
 
-  const GeometricError geometric = geometricError(upTo(farCutM(request), reference.distances), distances, v);
+  const GeometricError geometric =
+      geometricError(distancesUpTo(farCutM(request), reference.distances), distances, v);
   error.geometricMaxPx = geometric.maxPx;
   error.geometricMeanPx = geometric.meanPx;
   error.psnrDb = psnrDb(reference.pixels, ours, v.widthPx, v.heightPx);

@@ -17,12 +17,13 @@ std::vector<TimedImage> images(double noise, double perInstance) {
   for (int i = 0; i < 96; ++i) {
     TimedImage image;
     const double area = i % 3 == 0 ? 0.25 : 1;
-    image.load = {between(5e4, 8e5), between(0.1, 0.9) * area, 0.92 * area, i % 4 == 0 ? 0.5 : 0, false};
+    image.load = {between(5e4, 8e5), between(0.1, 0.9) * area, 0.92 * area, i % 4 == 0 ? 0.5 : 0, i % 7 == 0};
     image.instances = between(0, 3e4);
     image.looksForHidden = i % 5 != 0;
     image.ms = 1.5 + 2e-5 * image.load.triangles + 6 * image.load.groundMpx + perInstance * image.instances +
                (image.looksForHidden ? 0.4 : 0) + 3 * image.load.particles +
-               (image.load.particles > 0 ? 5 * image.load.sceneMpx : 0);
+               (image.load.particles > 0 ? 5 * image.load.sceneMpx : 0) +
+               (image.load.blurs ? 2.5 * image.load.sceneMpx : 0);
     image.ms *= 1 + noise * between(-1, 1);
     images.push_back(image);
   }
@@ -38,6 +39,7 @@ TEST(CostFit, findsWhatImagesCost) {
   EXPECT_NEAR(cost.lookingMs, 0.4, 1e-4);
   EXPECT_NEAR(cost.coefficients.perParticles, 3, 1e-3);
   EXPECT_NEAR(cost.coefficients.perWeatherMpx, 5, 1e-3);
+  EXPECT_NEAR(cost.coefficients.perBlurMpx, 2.5, 1e-3);
 }
 
 TEST(CostFit, missesByLessThanTheNoise) {

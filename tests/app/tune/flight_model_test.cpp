@@ -5,62 +5,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/harness/flown_frames.h"
 #include "app/tune/candidates.h"
 #include "tests/app/harness/mountain_plan.h"
-#include "tests/app/ig_support.h"
+#include "tests/app/tune/model_world.h"
 #include "trimtab/preset/preset.h"
-#include "trimtab/scene/error_meter.h"
 
 namespace trimtab::tune {
 namespace {
 
-/// A model of the mountains with samples that were drawn once.
 class FlightModelTest : public testing::Test {
  protected:
-  static constexpr int kWidth = 480, kHeight = 288;
-  /// Patches have levels of many errors.
-  static std::shared_ptr<const terrain::Database> land() {
-    static const std::shared_ptr<const terrain::Database> land =
-        terrain::Database::open(test::smallTerrain()).value();
-    return land;
-  }
   static Flight flight() { return test::weavingFlight(60, 2); }
-  struct World {
-    std::unique_ptr<experiment::Stage> stage;
-    std::unique_ptr<FlightModel> model;
-    DrawnSamples samples;
-  };
-  static World& world() {
-    static World world = [] {
-      World w;
-      experiment::Setup setup;
-      setup.terrain = land();
-      setup.widthPx = kWidth;
-      setup.heightPx = kHeight;
-      w.stage = std::move(experiment::Stage::open(setup)).value();
-      w.model = std::make_unique<FlightModel>(FlightModel::Scene{land(), kWidth, kHeight}, flight(),
-                                              edited([](TuningParameters&) {}), 6);
-      w.samples = *drawSamples(*w.stage, w.model->toDraw(), [](double) { return true; });
-      // Images of so small a size take next to nothing, and that with noise: what they cost is planted.
-      for (TimedImage& image : w.samples.images) {
-        image.ms =
-            0.5 + 2e-4 * image.load.triangles + image.load.groundMpx + (image.looksForHidden ? 0.2 : 0);
-        image.repeatsMs = {image.ms};
-      }
-      w.model->learn(w.samples);
-      return w;
-    }();
+  static ModelWorld& world() {
+    static ModelWorld world(flight());
     return world;
   }
-  static ValidatedParameters edited(const std::function<void(TuningParameters&)>& edit) {
-    TuningParameters parameters;
-    parameters.terrain.form = TerrainForm::patches;
-    edit(parameters);
-    return validate(parameters).value();
+  static FlightModel anew() {
+    return {{smallLand(), ModelWorld::kWidth, ModelWorld::kHeight},
+            flight(),
+            patches([](TuningParameters&) {}),
+            ModelWorld::kRows};
   }
   static Estimate estimate(const std::function<void(TuningParameters&)>& edit) {
-    return world().model->estimate(edited(edit));
+    return world().model->estimate(patches(edit));
   }
 };
 
@@ -77,61 +44,56 @@ TEST_F(FlightModelTest, coarserTakesLessTimeAndLosesMore) {
   Estimate before = fine;
   for (const double px : {4.0, 8.0, 16.0}) {
     const Estimate now = estimate([&](TuningParameters& p) { p.lod.screenSpaceError = Pixels{px}; });
-    EXPECT_GT(now.flip, before.flip) << px;
+    EXPECT_GT(now.error, before.error) << px;
     before = now;
   }
   EXPECT_LT(before.medianMs, fine.medianMs);
 }
 
 TEST_F(FlightModelTest, theOrderOfPresetsIsThatOfDrawnErrors) {
-  // Of each row that is measured, with the meter of `bench`.
-  scene::ErrorMeter meter;
-  ASSERT_TRUE(meter.initialize().usable);
-  meter.setTerrain(land());
-  const harness::Flying flying{land(), kWidth, kHeight, false, 1, {}};
-  const std::vector<std::size_t> rows = harness::sampledRows(flight(), *land(), 6);
   double drawnBefore = 0, estimatedBefore = 0;
   for (const auto& [px, scale] : {std::pair{1.0, 1.0}, {2.0, 1.0}, {2.0, 2.0}, {4.0, 2.0}, {8.0, 3.0}}) {
-    const ValidatedParameters preset = edited([&, px = px, scale = scale](TuningParameters& p) {
+    const ValidatedParameters preset = patches([&, px = px, scale = scale](TuningParameters& p) {
       p.lod.screenSpaceError = Pixels{px};
       p.lod.scale = Ratio{scale};
     });
-    const auto frames = harness::flyFrames(*world().stage, flying, flight(), preset, rows);
-    ASSERT_TRUE(frames);
-    double drawn = 0;
-    for (const harness::FlownFrame& frame : *frames)
-      drawn += meter.measure(frame.images[0].request, frame.images[0].before, nullptr).flip;
-    drawn /= static_cast<double>(frames->size());
-    const double estimated = world().model->estimate(preset).flip;
+    const double drawn = world().draw(preset, 60).error, estimated = world().model->estimate(preset).error;
     EXPECT_GT(drawn, drawnBefore);
     EXPECT_GT(estimated, estimatedBefore);
-    EXPECT_NEAR(estimated / drawn, 1, 0.15) << px << " px times " << scale;
+    EXPECT_NEAR(estimated / drawn, 1, 0.35) << px << " px times " << scale;
     drawnBefore = drawn, estimatedBefore = estimated;
   }
-  meter.release();
 }
 
 TEST_F(FlightModelTest, whatIsLostAtRestCountsOnceAndFollowsTheGround) {
   DrawnSamples planted = world().samples;
   for (DrawnRow& row : planted.rows) {
-    row.flipAtRest = 0.01;
-    row.flip = {};
+    row.atRest = 0.01;
+    for (auto& ofLever : row.error) ofLever.fill(0.01);
   }
-  const auto lost = [&](double px) {
-    FlightModel model({land(), kWidth, kHeight}, flight(), edited([](TuningParameters&) {}), 6);
-    model.learn(planted);
-    return model
-        .estimate(edited([&](TuningParameters& p) {
-          p.lod.screenSpaceError = Pixels{px};
-          p.objects.errorPx = Pixels{px};
-        }))
-        .flip;
+  FlightModel model = anew();
+  model.learn(planted);
+  const auto rowsAt = [&](double px) {
+    std::vector<RowEstimate> rows;
+    model.estimate(patches([&](TuningParameters& p) {
+                     p.lod.screenSpaceError = Pixels{px};
+                     p.objects.errorPx = Pixels{px};
+                   }),
+                   &rows);
+    return rows;
   };
-  const double fine = lost(1);
-  EXPECT_NEAR(fine, 0.01, 0.004) << "by as much as the rows between show more or less ground";
-  EXPECT_EQ(lost(16), fine) << "levers add nothing to it";
-  for (DrawnRow& row : planted.rows) row.groundMpx *= 2;
-  EXPECT_NEAR(lost(1), fine / 2, 1e-9) << "half as much ground as where it was drawn";
+  const std::vector<RowEstimate> fine = rowsAt(1), coarse = rowsAt(16);
+  double least = 1, most = 0;
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    EXPECT_EQ(coarse[i].error, fine[i].error) << "levers add nothing to it";
+    least = std::min(least, fine[i].error), most = std::max(most, fine[i].error);
+    for (const SampleRow& drawn : model.toDraw())
+      if (drawn.row == fine[i].row) {
+        EXPECT_NEAR(fine[i].error, 0.01, 1e-6) << "as it was drawn";
+      }
+  }
+  EXPECT_LT(least, 0.0099) << "a row with less ground than those drawn beside it";
+  EXPECT_GT(most, 0.0101);
 }
 
 TEST_F(FlightModelTest, rulesSeeTheTrianglesThatAreEstimated) {
@@ -147,10 +109,10 @@ TEST_F(FlightModelTest, rulesSeeTheTrianglesThatAreEstimated) {
   const Estimate always = policy(1), never = policy(1e7);
   const Estimate fine = estimate([](TuningParameters&) {});
   const Estimate coarse = estimate([](TuningParameters& p) { p.lod.screenSpaceError = Pixels{16}; });
-  EXPECT_EQ(never.flip, fine.flip);
+  EXPECT_EQ(never.error, fine.error);
   // The first images of a flight know no triangles yet.
-  EXPECT_NEAR(always.flip, coarse.flip, 0.15 * coarse.flip);
-  EXPECT_GT(coarse.flip, 2 * fine.flip);
+  EXPECT_NEAR(always.error, coarse.error, 0.15 * coarse.error);
+  EXPECT_GT(coarse.error, 2 * fine.error);
 }
 
 TEST_F(FlightModelTest, aBudgetIsHeldByTheEstimate) {
@@ -163,7 +125,7 @@ TEST_F(FlightModelTest, aBudgetIsHeldByTheEstimate) {
     });
   };
   EXPECT_LE(held(0.7).p95Ms, 0.7 * wholeMs * 1.1);
-  EXPECT_GT(held(0.7).flip, held(3).flip);
+  EXPECT_GT(held(0.7).error, held(3).error);
   EXPECT_NEAR(held(3).p99Ms, wholeMs, 1e-9) << "what fits stays";
 }
 
@@ -179,11 +141,11 @@ TEST_F(FlightModelTest, aHeldBudgetGivesUpNoMoreThanItsOwnImagesAskFor) {
       image.ms = ms * (1 + side * quickest);
       image.repeatsMs = {ms * (1 + side * repeats)};
     }
-    FlightModel model({land(), kWidth, kHeight}, flight(), edited([](TuningParameters&) {}), 6);
+    FlightModel model = anew();
     model.learn(noisy);
-    const double budgetMs = 0.5 * model.estimate(edited(finest)).p95Ms;
+    const double budgetMs = 0.5 * model.estimate(patches(finest)).p95Ms;
     return model
-               .estimate(edited([&](TuningParameters& p) {
+               .estimate(patches([&](TuningParameters& p) {
                  finest(p);
                  p.hold.enabled = true;
                  p.measure.budget = Milliseconds{budgetMs};
@@ -194,7 +156,7 @@ TEST_F(FlightModelTest, aHeldBudgetGivesUpNoMoreThanItsOwnImagesAskFor) {
   const double calm = heldOverBudget(0.05, 0.05);
   EXPECT_GT(calm, 0.8 * 0.9);
   EXPECT_LE(calm, 1);
-  EXPECT_LT(heldOverBudget(0, 0.2), 0.9 * heldOverBudget(0, 0)) << "times as they come lie far apart";
+  EXPECT_LT(heldOverBudget(0, 0.25), 0.9 * heldOverBudget(0, 0)) << "times as they come lie far apart";
 }
 
 TEST_F(FlightModelTest, whatPresetsShareIsAsIfEachWereAlone) {
@@ -222,12 +184,12 @@ TEST_F(FlightModelTest, whatPresetsShareIsAsIfEachWereAlone) {
       [](TuningParameters& p) { p.hold.enabled = true; },
   };
   for (std::size_t i = 0; i < edits.size(); ++i) {
-    FlightModel alone({land(), kWidth, kHeight}, flight(), edited([](TuningParameters&) {}), 6);
+    FlightModel alone = anew();
     alone.learn(world().samples);
     estimate(edits[i % 2 ? 0 : 2]);  // whatever this one has in common with those
-    const Estimate shared = estimate(edits[i]), own = alone.estimate(edited(edits[i]));
+    const Estimate shared = estimate(edits[i]), own = alone.estimate(patches(edits[i]));
     EXPECT_EQ(shared.meanMs, own.meanMs) << i;
-    EXPECT_EQ(shared.flip, own.flip) << i;
+    EXPECT_EQ(shared.error, own.error) << i;
   }
 }
 
@@ -241,13 +203,13 @@ TEST_F(FlightModelTest, lookingForHiddenGroundIsTheCullingsOwn) {
     };
   };
   const Estimate always = estimate(membership(1)), never = estimate(membership(0));
-  EXPECT_EQ(always.flip, never.flip);
+  EXPECT_EQ(always.error, never.error);
   EXPECT_NE(always.medianMs, never.medianMs);
 }
 
 TEST_F(FlightModelTest, whatWinsNothingIsPutBackToTheStart) {
   const Plan plan;
-  const TuningParameters start = *edited([](TuningParameters&) {});
+  const TuningParameters start = *patches([](TuningParameters&) {});
   const auto space = SearchSpace::make(start, {"lod.scale", "objects.far_m", "static_lod.error_px"});
   ASSERT_TRUE(space) << toString(space.findings());
   const Judge judge(plan, *space, std::span(world().model.get(), 1));
@@ -270,7 +232,7 @@ TEST_F(FlightModelTest, whatWinsNothingIsPutBackToTheStart) {
 
 TEST_F(FlightModelTest, theBestChangeOfOneParameterIsFoundToAThirtiethOfItsRange) {
   Plan plan;
-  const TuningParameters start = *edited([](TuningParameters&) {});
+  const TuningParameters start = *patches([](TuningParameters&) {});
   const auto space = SearchSpace::make(start, {"lod.scale=1..8"});
   const Judge judge(plan, *space, std::span(world().model.get(), 1));
   // Coarser is quicker and worse, so that the best lies at the limit, wherever that is.

@@ -28,10 +28,10 @@ TEST(TriedOut, missesAreOfTheRowsThatWereDrawn) {
   std::vector<harness::MeasuredFrame> drawn(2);
   drawn[0].row = 5, drawn[0].cost.total = 30, drawn[0].error.flip = 0.02;
   drawn[1].row = 9, drawn[1].cost.total = 30, drawn[1].error.flip = 0.005;
-  const Missed missed = missedBy(estimates, drawn);
+  const Missed missed = missedBy(ErrorKind::flip, estimates, drawn);
   EXPECT_DOUBLE_EQ(missed.time, 60.0 / 50);
   EXPECT_DOUBLE_EQ(missed.error, 0.025 / 0.05);
-  const Missed unknown = missedBy(estimates, {});
+  const Missed unknown = missedBy(ErrorKind::flip, estimates, {});
   EXPECT_EQ(unknown.time, 1);
   EXPECT_EQ(unknown.error, 1) << "of what nobody drew, nothing is known";
 }

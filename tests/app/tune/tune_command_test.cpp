@@ -122,6 +122,9 @@ TEST_F(TuneCommand, badOptionsAreNamed) {
   EXPECT_THAT(refusal({"--part", "3/2"}), HasSubstr("I/N with I from 1 to N"));
   EXPECT_THAT(refusal({"--budget-ms", "5", "--max-error", "0.1"}), HasSubstr("excludes"));
   EXPECT_THAT(refusal({"--budget-ms", "-5"}), HasSubstr("--budget-ms"));
+  EXPECT_THAT(refusal({"--error", "psnr"}), HasSubstr("--error: psnr"));
+  EXPECT_THAT(refusal({"--error", "pop"}), HasSubstr("at least 20"));
+  EXPECT_THAT(refusal({"--error", "geometric", "--max-error", "40"}), HasSubstr("at most 32"));
   EXPECT_THAT(refusal({"--flight", "nowhere.csv"}), HasSubstr("nowhere.csv"));
   test::writeFile(dir / "words.csv", "once,upon\na,time\n");
   EXPECT_THAT(refusal({"--hold-out", (dir / "words.csv").string()}), HasSubstr("words.csv"));

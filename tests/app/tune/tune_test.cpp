@@ -165,6 +165,10 @@ TEST(Tune, refusesBeforeHoursAreSpent) {
   EXPECT_THAT(refusal([](Plan& p) { p.free.clear(); }), HasSubstr("at least one parameter"));
   EXPECT_THAT(refusal([](Plan& p) { p.flights.clear(); }), HasSubstr("--flight"));
   EXPECT_THAT(refusal([](Plan& p) { p.heldOut = p.flights; }), HasSubstr("was not seen"));
+  EXPECT_THAT(refusal([](Plan& p) { p.maxError = 1.5; }), HasSubstr("a mean FLIP above 0 and at most 1"));
+  EXPECT_THAT(refusal([](Plan& p) { p.error = ErrorKind::geometric, p.maxError = 40; }),
+              HasSubstr("a largest geometric error above 0 and at most 32"));
+  EXPECT_THAT(refusal([](Plan& p) { p.error = ErrorKind::pop; }), HasSubstr("at least 20"));
   EXPECT_THAT(refusal([](Plan& p) { p.heldOut[0].name = p.flights[0].name; }), HasSubstr("first twice"));
   EXPECT_THAT(refusal([](Plan& p) { p.heldOut[0].flight.states = p.flights[0].flight.states; }),
               HasSubstr("second, which flies as first does"));
@@ -270,6 +274,69 @@ TEST(Tune, whatIsNotKeptOnAHeldOutFlightIsNotSaidToBe) {
               HasSubstr("but not on those that it has not seen: there preset found, p95 12"));
   presets[1].measured[0].p95Ms = 11;
   EXPECT_THAT(answerOf(plan, presets), HasSubstr("no preset that was drawn"));
+}
+
+TEST(Tune, theErrorThatWasChosenDecidesAndIsSaid) {
+  Plan plan = smallTunePlan();
+  std::vector<Tuned> presets(3);
+  const auto measure = [&](Tuned& preset, const char* name, double ms, double flip, double px, double pop) {
+    preset.name = name;
+    for (int flight = 0; flight < 2; ++flight) {
+      harness::AnswerRow row;
+      row.medianMs = row.p95Ms = ms;
+      row.flip = flip, row.geometricPx = px, row.pop = pop;
+      preset.measured.push_back(row);
+    }
+  };
+  measure(presets[0], "start", 20, 0.01, 1, 1);
+  measure(presets[1], "near", 9, 0.03, 2.5, 5);
+  measure(presets[2], "calm", 9, 0.02, 7.5, 2);
+  const auto answer = [&](ErrorKind kind) {
+    plan.error = kind;
+    return answerOf(plan, presets);
+  };
+  plan.budgetMs = 10;
+  EXPECT_THAT(answer(ErrorKind::flip), HasSubstr("preset calm, p95 9 ms (0 to 0), FLIP 0.02; start"));
+  EXPECT_THAT(answer(ErrorKind::geometric), HasSubstr("preset near, p95 9 ms (0 to 0), 2.5 px; start"));
+  EXPECT_THAT(answer(ErrorKind::pop), HasSubstr("preset calm, p95 9 ms (0 to 0), pop 2 of 255; start"));
+  plan.budgetMs.reset();
+  plan.maxError = 3;
+  EXPECT_THAT(
+      answer(ErrorKind::geometric),
+      HasSubstr(
+          "Within a largest geometric error of 3 px on flights that the search has not seen: preset near"));
+  EXPECT_THAT(answer(ErrorKind::pop), HasSubstr("Within a 95th percentile of pops of 3 of 255"));
+  EXPECT_THAT(answer(ErrorKind::pop), HasSubstr("preset calm"));
+  plan.error = ErrorKind::geometric;
+  markFront(plan, presets);
+  EXPECT_TRUE(presets[1].onFront);
+  EXPECT_FALSE(presets[2].onFront) << "another is as quick and has less error";
+}
+
+TEST(Tune, aGeometricErrorIsSearchedAndReported) {
+  const test::ScratchDir dir;
+  Plan plan = smallTunePlan();
+  plan.error = ErrorKind::geometric;
+  const auto outcome = run(plan, dir / "out");
+  ASSERT_TRUE(outcome) << toString(outcome.findings());
+  const experiment::Report report = toReport(plan, *outcome);
+  EXPECT_EQ(report.plots.front().yLabel, "largest geometric error");
+  std::size_t wide = 0;
+  for (std::size_t row = 0; row < report.measured.rows.size(); ++row)
+    for (const auto& [name, low, high] :
+         {std::tuple{"estimated_geometric_px", "estimated_geometric_low_px", "estimated_geometric_high_px"},
+          std::tuple{"estimated_p95_ms", "estimated_p95_low_ms", "estimated_p95_high_ms"}}) {
+      const double estimate = report.measured.number(row, name);
+      EXPECT_LE(report.measured.number(row, low), estimate) << name;
+      EXPECT_GE(report.measured.number(row, high), estimate) << name;
+      wide += report.measured.number(row, high) > report.measured.number(row, low);
+    }
+  EXPECT_GT(wide, report.measured.rows.size()) << "of all times, and of some errors";
+  // Its samples say nothing of another error.
+  plan.error = ErrorKind::flip;
+  const auto refused = run(plan, dir / "out");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(toString(refused.findings()), HasSubstr("error"));
 }
 
 TEST(Tune, withoutAHeldOutFlightItSaysThatNothingIsProven) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "trimtab/frame/frame.h"
 
@@ -32,5 +33,9 @@ struct GeometricError {
 /// pixel with an error of e pixels looks at up to 8 e^2 lines.
 GeometricError geometricError(std::span<const float> reference, std::span<const float> ours,
                               const ViewShape& view, int windowPx = 32);
+
+/// Returns a reference's distances up to a far cut, metres, beyond which nothing was drawn. What the cut
+/// takes from an image shows in its colours, as fog, and is no geometric error.
+std::vector<float> distancesUpTo(double farM, std::vector<float> distances);
 
 }  // namespace trimtab
