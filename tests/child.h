@@ -42,10 +42,14 @@ inline std::string statusOf(pid_t process, const std::string& word) {
   const std::size_t at = status.find(word);
   return at == std::string::npos ? "" : status.substr(at + word.size());
 }
+/// Reports whether a signal is in a set of the process, such as "SigBlk:", those that it holds.
+inline bool hasSignal(pid_t process, const std::string& set, int signal) {
+  const std::string bits = statusOf(process, set);
+  return !bits.empty() && (std::stoull(bits, nullptr, 16) >> (signal - 1) & 1) != 0;
+}
 /// Reports whether a process has a handler for a signal.
 inline bool catches(pid_t process, int signal) {
-  const std::string caught = statusOf(process, "SigCgt:");
-  return !caught.empty() && (std::stoull(caught, nullptr, 16) >> (signal - 1) & 1) != 0;
+  return hasSignal(process, "SigCgt:", signal);
 }
 inline pid_t parentOf(pid_t process) {
   const std::string parent = statusOf(process, "PPid:");

@@ -142,6 +142,7 @@ TEST_F(BenchCommand, pausesBetweenImagesSoThatNoTimeHasThePauseInIt) {
                           "--size", "96x64", "--frames", "20", "--repeats", "1", "-o", out},
                          dir / "err", true);
   ASSERT_TRUE(test::until([&] { return !partsOf(out).empty(); })) << bench.err();
+  EXPECT_TRUE(test::hasSignal(bench.pid(), "SigBlk:", SIGTSTP)) << "it stops only where it times nothing";
   for (int i = 0; i < 3; ++i) {
     ::kill(bench.pid(), SIGTSTP);
     ASSERT_TRUE(test::until([&] { return test::isStopped(bench.pid()); })) << bench.err();

@@ -85,10 +85,13 @@ class Cluster : public test::SmallRun {
  protected:
   static void SetUpTestSuite() {
     SmallRun::SetUpTestSuite();
+    // A bake of the small terrain ends before anybody can kill it.
+    ASSERT_EQ(test::run(cli() + " terrain sample --bare --size-km 24 --post-m 30 -o " + large()).exitCode, 0);
     const test::Ran single = test::run(tune(*shared_ / "single"));
     ASSERT_EQ(single.exitCode, 0) << single.err;
   }
 
+  static std::string large() { return (*shared_ / "large.tif").string(); }
   static std::string tune(const fs::path& out) {
     return cli() + " tune --terrain " + database() + " --flight " + flight() +
            " --free 'lod.*' --size 160x96 --samples 3 --frames 4 --repeats 1 --points 2 --searches 8 "
@@ -109,11 +112,11 @@ class Cluster : public test::SmallRun {
     }
   }
   static std::string bake(const fs::path& out) {
-    return cli() + " terrain bake " + elevation() + " --max-error-m 0 -o " + out.string();
+    return cli() + " terrain bake " + large() + " --max-error-m 0 -o " + out.string();
   }
   static std::string bench(const fs::path& out) {
     return cli() + " bench --terrain " + database() + " --flight " + flight() +
-           " --preset default high-cruise --size 96x64 --frames 6 --repeats 1 -o " + out.string();
+           " --preset default high-cruise --size 96x64 --frames 24 --repeats 1 -o " + out.string();
   }
   /// Errors and counts of a bench; times differ from run to run.
   static std::string errorsOf(const fs::path& folder) {
@@ -133,21 +136,60 @@ class Cluster : public test::SmallRun {
     EXPECT_EQ(errorsOf(benched), errorsOf(dir / "bench"));
     EXPECT_THAT(errorsOf(benched), HasSubstr("high-cruise"));
   }
-  static void killOne(const std::vector<std::string>& words) {
-    EXPECT_TRUE(test::until([&] { return !test::processesWith(words).empty(); })) << words.front();
-    for (const pid_t pid : test::processesWith(words)) ::kill(pid, SIGKILL);
+  /// Kills a process that does a part of a run, or the batch shell that started it; waits for one.
+  static void killPart(const fs::path& out, bool itsShell) {
+    EXPECT_TRUE(test::until([&] {
+      for (const pid_t part : test::processesWith({"trimtab-cli", "--part", out.string()})) {
+        // What a shell that was killed has left behind has another parent.
+        const pid_t shell = test::parentOf(part);
+        if (test::commandOf(shell).find("slurm_script") == std::string::npos) continue;
+        return ::kill(itsShell ? shell : part, SIGKILL) == 0;
+      }
+      return false;
+    })) << out;
+  }
+  /// Returns how much of a run is finished: files or, of a bake, lines of its journal.
+  static long finished(const fs::path& out) {
+    std::error_code absent;
+    long count = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(out, absent))
+      count += entry.path().extension() == ".json";
+    const std::string lines =
+        test::readFile(out.parent_path() / ('.' + out.filename().string() + ".work") / "journal");
+    return count + std::count(lines.begin(), lines.end(), '\n');
+  }
+  /// Runs a command as arrays of a Slurm, in which what a task runs, a batch shell and the node's daemon are
+  /// killed in turn, each in work that has gone on since the one before.
+  static void survive(const OneNodeSlurm& slurm, int parts, const fs::path& out, const std::string& command) {
+    const test::Ran submitted = test::run("bash " + script("slurm.sh") + ' ' + std::to_string(parts) + ' ' +
+                                          out.string() + ' ' + command);
+    ASSERT_EQ(submitted.exitCode, 0) << submitted.out << submitted.err;
+    long before = finished(out);
+    const auto waitForMore = [&] {
+      EXPECT_TRUE(test::until([&] { return finished(out) > before; })) << out;
+      before = finished(out);
+    };
+    killPart(out, false);
+    waitForMore();
+    killPart(out, true);
+    waitForMore();
+    EXPECT_TRUE(test::until([&] { return !test::processesWith({"--part", out.string()}).empty(); }));
+    slurm.kill("slurmd", SIGKILL);
+    EXPECT_EQ(slurm.startNode(), "");
+    expectComplete(out);
   }
   /// Waits for some rounds of processes, which a busy machine takes its time for.
   static void expectComplete(const fs::path& out) {
     const std::string log = out.string() + ".log";
-    bool done = false;
-    for (int i = 0; i < 10 && !done; ++i) {
+    const auto isDone = [&] { return test::readFile(log + "/state") == "complete\n"; };
+    for (int i = 0; i < 3000 && !isDone(); ++i) {
       // Without this the controller believes for minutes that tasks of a killed daemon run; of those that had
       // just begun it asks again only when they are some seconds old.
-      test::run("scontrol reconfigure");
-      done = test::until([&] { return test::readFile(log + "/state") == "complete\n"; });
+      if (i % 50 == 0) test::run("scontrol reconfigure");
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
-    EXPECT_TRUE(done) << test::readFile(log + "/state") << test::run("squeue; tail -n 5 " + log + "/*").out;
+    EXPECT_TRUE(isDone()) << test::readFile(log + "/state")
+                          << test::run("squeue; tail -n 5 " + log + "/*").out;
   }
   static std::string script(const std::string& name) {
     return (test::sourceDir() / "resources/cluster" / name).string();
@@ -161,15 +203,7 @@ TEST_F(Cluster, slurmGivesTheSingleRunsSearchesWhateverIsKilled) {
   if (!slurm.ready()) GTEST_SKIP() << "needs a Slurm that starts here: " << slurm.said();
   const fs::path out = dir / "out";
   takeSamples(out);
-  const test::Ran submitted =
-      test::run("bash " + script("slurm.sh") + " 8 " + out.string() + ' ' + tune(out));
-  ASSERT_EQ(submitted.exitCode, 0) << submitted.out << submitted.err;
-  killOne({"tune", "--part", out.string()});        // what a task runs
-  killOne({"slurm_script", "tune", out.string()});  // a batch shell
-  EXPECT_TRUE(test::until([&] { return !test::processesWith({"--part", out.string()}).empty(); }));
-  slurm.kill("slurmd", SIGKILL);
-  EXPECT_EQ(slurm.startNode(), "");
-  expectComplete(out);
+  survive(slurm, 8, out, tune(out));
   expectTheSingleRunsSearches(out);
   EXPECT_TRUE(fs::exists(out / "tune.html"));
 }
@@ -199,13 +233,8 @@ TEST_F(Cluster, slurmGivesTheSingleRunsBakeAndBenchWhateverIsKilled) {
   const test::ScratchDir dir;
   const OneNodeSlurm slurm(dir / "slurm");
   if (!slurm.ready()) GTEST_SKIP() << "needs a Slurm that starts here: " << slurm.said();
-  for (const auto& [name, command] : {std::pair{"db", bake(dir / "db")}, {"bench", bench(dir / "bench")}}) {
-    const std::string out = (dir / name).string();
-    const test::Ran submitted = test::run("bash " + script("slurm.sh") + " 3 " + out + ' ' + command);
-    ASSERT_EQ(submitted.exitCode, 0) << submitted.out << submitted.err;
-    killOne({"trimtab-cli", "--part", out});
-    expectComplete(out);
-  }
+  survive(slurm, 3, dir / "db", bake(dir / "db"));
+  survive(slurm, 3, dir / "bench", bench(dir / "bench"));
   expectTheSingleRuns(dir / "db", dir / "bench");
 }
 
