@@ -183,15 +183,13 @@ void drawLosses(experiment::Stage& stage, ErrorKind kind, const SampleRow& sampl
   RowMeter whole(stage, kind, 1, sample);
   const double wholeAtRest = whole.error(std::identity());
   const FrameResult finest = meter.drawn();
-  for (auto* kept : {&row.smallKept, &row.objectsKept, &row.airKept, &row.spreadKept, &row.smallInstances,
-                     &row.farInstances})
+  for (auto* kept : {&row.smallKept, &row.objectsKept, &row.airKept, &row.smallInstances, &row.farInstances})
     kept->fill(1);
   row.instances = static_cast<double>(finest.objects.drawn);
   const auto keptOf = [&](Loss loss) {
     return loss == Loss::small_feature     ? &row.smallKept
            : loss == Loss::object_distance ? &row.objectsKept
            : loss == Loss::far_distance    ? &row.airKept
-           : loss == Loss::level_spread    ? &row.spreadKept
                                            : nullptr;
   };
   const auto trianglesOf = [](const FrameResult& drawn, Loss loss) {
@@ -232,8 +230,6 @@ void drawLosses(experiment::Stage& stage, ErrorKind kind, const SampleRow& sampl
     row.together[setting] = row.atRest - wholeAtRest + whole.error([&](const FrameRequest& request) {
       return together(request, setting);
     });
-  const double unspread = row.spreadKept[kNoSpread];
-  for (double& kept : row.spreadKept) kept = unspread > 0 ? kept / unspread : 1;
 }
 
 /// Times the settings of one row once. Each image follows the one before it, as in flight; the first turn
@@ -329,7 +325,6 @@ std::string toJson(const DrawnSamples& samples) {
                     {"small_kept", row.smallKept},
                     {"objects_kept", row.objectsKept},
                     {"air_kept", row.airKept},
-                    {"spread_kept", row.spreadKept},
                     {"instances", row.instances},
                     {"small_instances", row.smallInstances},
                     {"far_instances", row.farInstances}});
@@ -364,7 +359,6 @@ Result<DrawnSamples> parseSamples(std::string_view json, const std::string& wher
       row.smallKept = r.at("small_kept").get<decltype(row.smallKept)>();
       row.objectsKept = r.at("objects_kept").get<decltype(row.objectsKept)>();
       row.airKept = r.at("air_kept").get<decltype(row.airKept)>();
-      row.spreadKept = r.at("spread_kept").get<decltype(row.spreadKept)>();
       row.instances = r.at("instances");
       row.smallInstances = r.at("small_instances").get<decltype(row.smallInstances)>();
       row.farInstances = r.at("far_instances").get<decltype(row.farInstances)>();

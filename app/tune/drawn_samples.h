@@ -67,8 +67,8 @@ struct DrawnRow {
   std::array<std::array<double, kLossSteps>, kLosses> error{};
   std::array<double, kTogether> together{};  ///< errors of images with several levers moved
   /// The part of the triangles that a value leaves: of objects for small_feature and object_distance, of all
-  /// for far_distance, and of all at kSpreadPx for level_spread.
-  std::array<double, kLossSteps> smallKept{}, objectsKept{}, airKept{}, spreadKept{};
+  /// for far_distance.
+  std::array<double, kLossSteps> smallKept{}, objectsKept{}, airKept{};
   double instances = 0;  ///< of objects in the image, all levers at rest
   /// The part of them that the values of small_feature and of object_distance leave.
   std::array<double, kLossSteps> smallInstances{}, farInstances{};

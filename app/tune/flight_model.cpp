@@ -110,15 +110,18 @@ FlightModel::Impl::Image FlightModel::Impl::imageOf(const FlightRow& row, const 
                                                     Places& places) const {
   Image image;
   Losses losses(row.atRest);
-  const double counts = std::exp2(rule.octaves(levers, row.spreadCounts, places)),
-               loses = std::exp2(rule.octaves(levers, row.spreadLoses, places));
+  const double loses = LevelRule::loses(levers, row.spreadLoses, places);
   const double groundPx = rule.groundPx(levers), objectPx = rule.objectPx(levers);
   const auto lose = [&](Loss loss, double value) {
     losses.add(places.of(loss, value).in(row.error[static_cast<std::size_t>(loss)], row.atRest));
   };
   const Kept kept = keptOf(row, levers, places);
-  const double objects =
-      places.objects.at(objectPx * counts, Places::ladderPlace).in(row.objects) * kept.triangles;
+  const auto counted = [&](LeverPlace& place, double px, const Counted& ladder) {
+    const double all = place.at(px, Places::ladderPlace).in(ladder);
+    if (levers.levelSpread == 1) return all;
+    return all * LevelRule::kept(levers, ladderSteps(px), row.spreadKept, places);
+  };
+  const double objects = counted(places.objects, objectPx, row.objects) * kept.triangles;
   lose(Loss::ground_error, groundPx * loses);
   if (objects > 0) {
     lose(Loss::object_error, objectPx * loses);
@@ -126,7 +129,7 @@ FlightModel::Impl::Image FlightModel::Impl::imageOf(const FlightRow& row, const 
     lose(Loss::object_distance, levers.objectFarM);
   }
   if (levers.renderScale < 1) lose(Loss::render_scale, levers.renderScale);
-  image.triangles = places.ground.at(groundPx * counts, Places::ladderPlace).in(row.tiles) + objects;
+  image.triangles = counted(places.ground, groundPx, row.tiles) + objects;
   image.triangles *= levers.occlusion ? row.drawnHidden : row.drawnOpen;
   if (std::isfinite(levers.farM)) {
     const double part = levers.farM / decision.weather.farM;
@@ -155,7 +158,7 @@ LevelRule FlightModel::Impl::ruleOf(const TuningParameters& parameters) const {
   if (rule.trees && parameters.staticLod.rule == StaticDistanceRule::factor)
     rule.fixedPx = flight.pixelsPerRadian / parameters.staticLod.distancePerError.value();
   const double spread = parameters.lod.spread.value(), fromM = parameters.lod.spreadFrom.value();
-  rule.fromOctaves = (1 - 1 / spread) * std::log2(fromM / flight.spreadFromM);
+  rule.fromTimes = std::pow(fromM / flight.spreadFromM, 1 - 1 / spread);
   return rule;
 }
 
@@ -172,15 +175,16 @@ HeldLevers FlightModel::Impl::hold(const FlightRow& row, const FrameLevers& aske
   given.imageMpx = row.imageMpx;
   given.groundMpx = row.groundMpx;
   const double drawn = asked.occlusion ? row.drawnHidden : row.drawnOpen;
-  const double spread = double{kPlacesPerOctave} * rule.octaves(asked, row.spreadCounts, places);
-  const double tiles = ladderSteps(rule.groundPx(asked)) + spread;
-  const double objects = ladderSteps(rule.objectPx(asked)) + spread;
+  const double tiles = ladderSteps(rule.groundPx(asked)), objects = ladderSteps(rule.objectPx(asked));
+  const auto counted = [&](double steps, const Counted& ladder) {
+    return onLadder(steps).in(ladder)*LevelRule::kept(asked, steps, row.spreadKept, places);
+  };
   const double toNext = placesToNext(asked.errorPx);
   const Kept kept = keptOf(row, asked, places);
   for (std::size_t k = 0; k < kErrorSteps; ++k) {
     const double coarser = k == 0 ? 0 : toNext + static_cast<double>(k - 1);
-    given.triangles[k] = drawn * (onLadder(rule.fixedPx ? tiles : tiles + coarser).in(row.tilesAhead) +
-                                  onLadder(objects + coarser).in(row.objectsAhead) * kept.triangles);
+    given.triangles[k] = drawn * (counted(rule.fixedPx ? tiles : tiles + coarser, row.tilesAhead) +
+                                  counted(objects + coarser, row.objectsAhead) * kept.triangles);
   }
   static_cast<ClockCoefficients&>(given.cost) = cost.coefficients;
   // The arbiter knows no instances: what they cost does not follow its levers.

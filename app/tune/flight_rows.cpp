@@ -27,10 +27,10 @@ ValidatedParameters plain(const ValidatedParameters& start) {
 class Counter {
  public:
   explicit Counter(std::shared_ptr<const LoadIndex> index) { hold_.setIndex(std::move(index)); }
-  void count(const FrameRequest& request, FlightRow& row) {
+  void count(const FrameRequest& request, FlightRow& row, double spread = 1) {
     for (const double from : {kLeastPx, 16 * kLeastPx}) {
-      const HoldGiven all = look(request, from, WeatherDecision::kUnlimited);
-      const HoldGiven ground = look(request, from, -1);  // no object is so near
+      const HoldGiven all = look(request, from, spread, WeatherDecision::kUnlimited);
+      const HoldGiven ground = look(request, from, spread, -1);  // no object is so near
       const std::size_t first = from == kLeastPx ? 0 : 4 * kPlacesPerOctave;
       for (std::size_t k = 0; k < kErrorSteps && first + k < kCounted; ++k) {
         row.tiles[first + k] = static_cast<float>(ground.triangles[k]);
@@ -40,12 +40,27 @@ class Counter {
       row.imageMpx = all.imageMpx;
     }
   }
+  /// Returns the part of a row's triangles, which are counted, that each spread leaves.
+  SpreadKept keptBySpreads(const FrameRequest& request, const FlightRow& row) {
+    SpreadKept kept;
+    for (std::size_t step = 0; step < kLossSteps; ++step) {
+      FlightRow spread;
+      count(request, spread, kLossValues[static_cast<std::size_t>(Loss::level_spread)][step]);
+      for (std::size_t octave = 0; octave < kept.size(); ++octave) {
+        const std::size_t k = octave * kPlacesPerOctave;
+        const float all = row.tiles[k] + row.objects[k];
+        kept[octave][step] = all > 0 ? (spread.tiles[k] + spread.objects[k]) / all : 1.0f;
+      }
+    }
+    return kept;
+  }
 
  private:
-  HoldGiven look(FrameRequest request, double errorPx, double objectFarM) {
+  HoldGiven look(FrameRequest request, double errorPx, double spread, double objectFarM) {
     FrameLevers& levers = request.levers.policy;
     levers.errorPx = levers.treeErrorPx = levers.objectErrorPx = errorPx;
-    levers.lodScale = levers.levelSpread = 1;
+    levers.lodScale = 1;
+    levers.levelSpread = spread;
     levers.smallFeaturePx = 0;
     levers.objectFarM = objectFarM;
     request.levers.drawn = levers;
@@ -129,33 +144,13 @@ Between betweenOf(const std::vector<double>& drawn, double at) {
   return {after - 1, after, (at - drawn[after - 1]) / (drawn[after] - drawn[after - 1])};
 }
 
-/// Returns by how many octaves the allowed error must change from kSpreadPx until `of(px)` is `part` of what
-/// it is there; at most to the end of the ladder, or of the losses.
-template <class Of>
-double octavesTo(double part, bool rises, const Of& of) {
-  constexpr int kMost = 3 * static_cast<int>(kPlacesPerOctave);
-  const double from = of(kSpreadPx), target = part * from;
-  if (!(from > 0) || part == 1) return 0;
-  const int way = (part > 1) == rises ? 1 : -1;
-  double last = from;
-  for (int i = 1; i <= kMost; ++i) {
-    const double next = of(kSpreadPx * std::exp2(way * i / double{kPlacesPerOctave}));
-    if (part > 1 ? next >= target : next <= target)
-      return way * (i - 1 + (target - last) / (next - last)) / double{kPlacesPerOctave};
-    last = next;
-  }
-  return way * kMost / double{kPlacesPerOctave};
-}
-
-/// Returns by how many octaves of the allowed error each spread changes the triangles of a drawn row, and the
-/// error.
-struct SpreadOctaves {
-  Steps counts{}, loses{};
-};
-SpreadOctaves spreadOf(const SampleRow& sample, const DrawnRow& drawn) {
+/// Returns by how many octaves of the allowed error each spread changes what a drawn row loses: until an
+/// image without a spread loses as much, at most to the end of the losses.
+Steps lostBySpreads(const DrawnRow& drawn) {
   Places places;
-  const auto lostAt = [&](double px) {
+  const auto lostAt = [&](int octaves16) {
     Losses losses(drawn.atRest);
+    const double px = kSpreadPx * std::exp2(octaves16 / double{kPlacesPerOctave});
     for (const Loss loss : {Loss::ground_error, Loss::object_error}) {
       Steps steps;
       std::ranges::copy(drawn.error[static_cast<std::size_t>(loss)], steps.begin());
@@ -164,12 +159,15 @@ SpreadOctaves spreadOf(const SampleRow& sample, const DrawnRow& drawn) {
     return losses.error();
   };
   const auto& lost = drawn.error[static_cast<std::size_t>(Loss::level_spread)];
-  SpreadOctaves octaves;
+  constexpr int kMost = 3 * static_cast<int>(kPlacesPerOctave);
+  Steps octaves{};
   for (std::size_t s = 0; s < kLossSteps; ++s) {
-    octaves.counts[s] = static_cast<float>(
-        octavesTo(drawn.spreadKept[s], false, [&](double px) { return sample.counted(px, px); }));
-    const double part = lost[kNoSpread] > 0 ? lost[s] / lost[kNoSpread] : 1;
-    octaves.loses[s] = static_cast<float>(octavesTo(part, true, lostAt));
+    if (!(lost[kNoSpread] > 0) || lost[s] == lost[kNoSpread]) continue;
+    const bool more = lost[s] > lost[kNoSpread];
+    const double target = lostAt(0) * lost[s] / lost[kNoSpread];
+    int at = 0;
+    while (std::abs(at) < kMost && (more ? lostAt(at) < target : lostAt(at) > target)) at += more ? 1 : -1;
+    octaves[s] = static_cast<float>(at) / static_cast<float>(kPlacesPerOctave);
   }
   return octaves;
 }
@@ -234,6 +232,7 @@ CountedFlight countFlight(const FlightScene& scene, const Flight& flight, const 
     sample.counted = [tiles = rows[i].tiles, objects = rows[i].objects](double groundPx, double objectPx) {
       return Places::ladderPlace(groundPx).in(tiles) + Places::ladderPlace(objectPx).in(objects);
     };
+    counted.spreads.push_back(counter.keptBySpreads(sample.request, rows[i]));
     counted.toDraw.push_back(std::move(sample));
   }
   return counted;
@@ -246,12 +245,12 @@ void takeSamples(CountedFlight& flight, ErrorKind kind, const DrawnSamples& samp
     for (std::size_t s = 0; s < kLossSteps; ++s) into[s] = static_cast<float>(std::lerp(a[s], b[s], part));
   };
   std::vector<double> numbers;
-  std::vector<SpreadOctaves> spreads;
+  std::vector<Steps> spreadLoses;
   /// Blur is drawn in a few rows; these are they, by how fast the view turns.
   std::vector<std::pair<double, const DrawnRow*>> blurred;
   for (std::size_t r = 0; r < samples.rows.size(); ++r) {
     numbers.push_back(static_cast<double>(samples.rows[r].row));
-    spreads.push_back(spreadOf(flight.toDraw[r], samples.rows[r]));
+    spreadLoses.push_back(lostBySpreads(samples.rows[r]));
     if (flight.toDraw[r].trail) blurred.emplace_back(flight.toDraw[r].turnDegps, &samples.rows[r]);
   }
   std::ranges::sort(blurred);
@@ -281,8 +280,10 @@ void takeSamples(CountedFlight& flight, ErrorKind kind, const DrawnSamples& samp
     mix(a.airKept, b.airKept, at.part, row.airKept);
     mix(a.smallInstances, b.smallInstances, at.part, row.smallInstances);
     mix(a.farInstances, b.farInstances, at.part, row.farInstances);
-    mix(spreads[at.before].counts, spreads[at.after].counts, at.part, row.spreadCounts);
-    mix(spreads[at.before].loses, spreads[at.after].loses, at.part, row.spreadLoses);
+    mix(spreadLoses[at.before], spreadLoses[at.after], at.part, row.spreadLoses);
+    for (std::size_t octave = 0; octave < row.spreadKept.size(); ++octave)
+      mix(flight.spreads[at.before][octave], flight.spreads[at.after][octave], at.part,
+          row.spreadKept[octave]);
     row.instances = std::lerp(a.instances, b.instances, at.part);
     if (blurred.empty()) continue;
     const Between turn = betweenOf(turns, row.turnDegps);

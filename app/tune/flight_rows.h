@@ -38,14 +38,15 @@ struct FlightRow {
   double costs = 1;                    ///< over the fitted cost
   std::array<Steps, kLosses> error{};  ///< of images with one lever moved
   Steps smallKept{}, objectsKept{}, airKept{}, smallInstances{}, farInstances{};
-  /// By how many octaves of the allowed error a spread changes the triangles, and the error.
-  Steps spreadCounts{}, spreadLoses{};
+  SpreadKept spreadKept{};
+  Steps spreadLoses{};  ///< by how many octaves of the allowed error a spread changes what is lost
   double instances = 0, atRest = 0;
 };
 
 struct CountedFlight {
   std::vector<FlightRow> rows;
   std::vector<SampleRow> toDraw;
+  std::vector<SpreadKept> spreads;  ///< of the rows to draw
   FormsOfTerrain forms;             ///< that the terrain has
   std::optional<TerrainForm> form;  ///< that is counted
   double pixelsPerRadian = 0;       ///< of the image

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -18,6 +19,8 @@ inline constexpr std::size_t kCounted = 7 * kPlacesPerOctave + 1;
 using Counted = std::array<float, kCounted>;
 /// What the steps of a loss say.
 using Steps = std::array<float, kLossSteps>;
+/// The part of the triangles that each spread of levels leaves, at every octave of the ladder.
+using SpreadKept = std::array<Steps, kCounted / kPlacesPerOctave + 1>;
 
 /// A place in a list: so far from a number to the next.
 struct Place {
@@ -72,17 +75,27 @@ struct LevelRule {
   bool trees = false;               ///< the ground is drawn as static trees
   std::optional<double> fixedPx{};  ///< the trees' rule allows this error, whatever the levers say
   /// A spread from another distance than the one that samples are drawn with is as if the allowed error were
-  /// so many octaves larger; 0 without a spread.
-  double fromOctaves = 0;
+  /// so many times as large; 1 without a spread.
+  double fromTimes = 1;
 
   double groundPx(const FrameLevers& levers) const {
-    return (fixedPx ? *fixedPx : trees ? levers.treeErrorPx : levers.errorPx) * levers.lodScale;
+    return (fixedPx ? *fixedPx : trees ? levers.treeErrorPx : levers.errorPx) * levers.lodScale * fromTimes;
   }
-  static double objectPx(const FrameLevers& levers) { return levers.objectErrorPx * levers.lodScale; }
-  /// Returns by how many octaves of the allowed error a spread changes what a row says of it.
-  double octaves(const FrameLevers& levers, const Steps& ofRow, Places& places) const {
-    if (levers.levelSpread == 1) return 0;
-    return fromOctaves + places.of(Loss::level_spread, levers.levelSpread).in(ofRow);
+  double objectPx(const FrameLevers& levers) const {
+    return levers.objectErrorPx * levers.lodScale * fromTimes;
+  }
+  /// Returns the part of the triangles that the levers' spread leaves at a place of the ladder, in its steps.
+  static double kept(const FrameLevers& levers, double steps, const SpreadKept& ofRow, Places& places) {
+    if (levers.levelSpread == 1) return 1;
+    const double octaves = std::clamp(steps, 0.0, double{kCounted - 1}) / double{kPlacesPerOctave};
+    const auto low = std::min(static_cast<std::size_t>(octaves), ofRow.size() - 2);
+    const Place& spread = places.of(Loss::level_spread, levers.levelSpread);
+    return std::lerp(spread.in(ofRow[low]), spread.in(ofRow[low + 1]), octaves - static_cast<double>(low));
+  }
+  /// Returns what the allowed error is multiplied by to lose as much without the levers' spread.
+  static double loses(const FrameLevers& levers, const Steps& ofRow, Places& places) {
+    return levers.levelSpread == 1 ? 1
+                                   : std::exp2(places.of(Loss::level_spread, levers.levelSpread).in(ofRow));
   }
 };
 

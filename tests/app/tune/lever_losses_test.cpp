@@ -33,6 +33,24 @@ ModelWorld& weaving() {
   return world;
 }
 
+TEST(SpreadOfLevels, drawsAndLosesWhatIsEstimated) {
+  const auto change = [](double from, double to) { return std::abs(std::log(to / from)); };
+  for (const double px : {1.0, 2.0}) {
+    const Estimate all = weaving().model->estimate(spreadPreset(px, 1, 5000));
+    const ModelWorld::Drawn drawnAll = weaving().draw(spreadPreset(px, 1, 5000));
+    for (const double spread : {0.5, 2.0}) {
+      const Estimate now = weaving().model->estimate(spreadPreset(px, spread, 5000));
+      const ModelWorld::Drawn drawn = weaving().draw(spreadPreset(px, spread, 5000));
+      EXPECT_NEAR(now.error / all.error / (drawn.error / drawnAll.error), 1, 0.3)
+          << px << " px, spread " << spread;
+      // A triangle is planted to take 2e-4 ms.
+      const double triangles = drawnAll.triangles + (now.meanMs - all.meanMs) / 2e-4;
+      EXPECT_NEAR(triangles / drawn.triangles, 1, 0.2) << px << " px, spread " << spread;
+      EXPECT_GT(change(drawnAll.triangles, drawn.triangles), 0.25) << "else nothing is shown";
+    }
+  }
+}
+
 TEST(SpreadOfLevels, fromAnotherDistanceIsAnotherAllowedError) {
   // By the rule of levels: a spread of 2 from 20 km is one from 5 km at twice the allowed error.
   const Estimate from20 = weaving().model->estimate(spreadPreset(2, 2, 20000)),
