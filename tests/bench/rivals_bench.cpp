@@ -21,8 +21,6 @@
 namespace trimtab::bench {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 720;
-
 /// A rule that another image generator holds a budget by: it gets the time of each image and sets the
 /// parameters of the next.
 using Rule = std::function<void(double ms, TuningParameters& next)>;
@@ -61,14 +59,13 @@ Rule unigine(double budgetMs, const ValidatedParameters& best) {
 }
 
 /// Flies a rule as harness::flyFrames() flies presets: images are drawn for some seconds before each row.
-std::vector<harness::FlownFrame> flyRule(experiment::Stage& stage,
-                                         const std::shared_ptr<const terrain::Database>& terrain,
+std::vector<harness::FlownFrame> flyRule(experiment::Stage& stage, const tune::Plan& plan,
                                          const Flight& flight, const std::vector<std::size_t>& rows,
                                          const Rule& rule) {
   constexpr std::size_t kBefore = 40;
   TuningParameters parameters;
   Session session{defaultParameters()};
-  session.setGround(terrain);
+  session.setGround(plan.terrain);
   std::vector<harness::FlownFrame> frames;
   std::vector<FrameRequest> before;
   for (std::size_t row = 0; row < flight.states.size() && frames.size() < rows.size(); ++row) {
@@ -76,7 +73,7 @@ std::vector<harness::FlownFrame> flyRule(experiment::Stage& stage,
     session.fly(state, state.time);
     const std::size_t next = rows[frames.size()];
     if (row + kBefore < next) continue;
-    const FrameRequest request = *session.request(state.time, kWidth, kHeight);
+    const FrameRequest request = *session.request(state.time, plan.widthPx, plan.heightPx);
     if (row == next) frames.push_back({row, state.time, 0, {{request, before}}});
     rule(stage.fly(request).cost.total, parameters);
     if (const auto valid = validate(parameters)) session.setParameters(*valid);
@@ -125,11 +122,15 @@ std::vector<harness::AnswerRow> draw(experiment::Stage& stage, const harness::Pl
 /// in turns with the others. `name` is part of the rows' ids.
 void rivalRows(Report& report, const std::string& name,
                const std::shared_ptr<const terrain::Database>& terrain, const Flight& flight) {
+  const int width = report.quick() ? 640 : 1280, height = width * 9 / 16;
   experiment::Setup setup;
   setup.terrain = terrain;
-  setup.widthPx = kWidth;
-  setup.heightPx = kHeight;
+  setup.widthPx = width;
+  setup.heightPx = height;
   const auto half = flight.states.begin() + static_cast<std::ptrdiff_t>(flight.states.size() / 2);
+  harness::Plan drawn;
+  drawn.terrain = terrain;
+  drawn.repeats = report.quick() ? 2 : 5;
   tune::Plan plan;
   plan.terrain = terrain;
   plan.terrainName = name;
@@ -143,16 +144,15 @@ void rivalRows(Report& report, const std::string& name,
                "hold.enabled",
                "hold.margin",
                "hold.caution"};
+  plan.widthPx = drawn.widthPx = width;
+  plan.heightPx = drawn.heightPx = height;
   plan.frames = 20;
   plan.drawnRows = report.quick() ? 8 : 12;
   plan.repeats = report.quick() ? 2 : 3;
   plan.points = report.quick() ? 3 : 4;
   plan.evaluations = report.quick() ? 4000 : 20000;
-  harness::Plan drawn;
-  drawn.terrain = terrain;
-  drawn.repeats = report.quick() ? 2 : 5;
   const auto fly = [&](experiment::Stage& stage, const Flight& over, const ValidatedParameters& parameters) {
-    return *harness::flyFrames(stage, {terrain, kWidth, kHeight, false, 1, {}}, over, parameters,
+    return *harness::flyFrames(stage, {terrain, width, height, false, 1, {}}, over, parameters,
                                harness::sampledRows(over, *terrain, plan.frames));
   };
   {
@@ -214,7 +214,7 @@ void rivalRows(Report& report, const std::string& name,
     const std::vector<std::size_t> rows = harness::sampledRows(over, *terrain, plan.frames);
     std::vector<harness::Runner> runners{{{}, defaultParameters(), fly(**stage, over, found->parameters)}};
     for (const Rule& rule : {vrsg(*plan.budgetMs), unigine(*plan.budgetMs, single->parameters)})
-      runners.push_back({{}, defaultParameters(), flyRule(**stage, terrain, over, rows, rule)});
+      runners.push_back({{}, defaultParameters(), flyRule(**stage, plan, over, rows, rule)});
     const std::vector<harness::AnswerRow> worth = draw(**stage, drawn, runners);
     atMost(1, against("vrsg", worth[0].flip, worth[1]), worth[1]);
     atMost(1, against("unigine", worth[0].flip, worth[2]), worth[2]);
