@@ -61,15 +61,15 @@ TEST(SpreadOfLevels, fromAnotherDistanceIsAnotherAllowedError) {
   EXPECT_EQ(unspread.meanMs, weaving().model->estimate(spreadPreset(2, 1, 5000)).meanMs);
 }
 
-/// Flies ahead for a second and a half, then turns by 120 degrees a second, at 60 Hz.
+/// Flies ahead for a second and a half, then turns by 120 degrees a second, at 60 Hz, and once by 180.
 Flight turningFlight() {
   Flight flight = test::weavingFlight(180, 60);
   for (std::size_t i = 0; i < flight.states.size(); ++i) {
     AircraftState& state = flight.states[i];
     state.position = {Degrees{36.62 + 1e-5 * static_cast<double>(i)}, Degrees{128.35},
                       Feet{5000}.as<Metres>()};
-    state.attitude = {Degrees{i < 90 ? 40.0 : 40.0 + 2 * static_cast<double>(i - 90)}, Degrees{-5},
-                      Degrees{0}};
+    state.attitude = {Degrees{i < 90 ? 40.0 : 39.0 + 2 * static_cast<double>(i - 90) + (i < 120 ? 0 : 1)},
+                      Degrees{-5}, Degrees{0}};
   }
   return flight;
 }
@@ -106,7 +106,8 @@ TEST(Blur, isDrawnWhereTheViewTurnsFastest) {
   const auto fastest =
       std::max_element(world.model->toDraw().begin(), world.model->toDraw().end(),
                        [](const SampleRow& a, const SampleRow& b) { return a.turnDegps < b.turnDegps; });
-  EXPECT_NEAR(fastest->turnDegps, 120, 1);
+  EXPECT_NEAR(fastest->turnDegps, 180, 1);
+  EXPECT_EQ(fastest->row, 120u) << "which is none of those that are evenly spread";
   ASSERT_TRUE(fastest->trail);
   EXPECT_GT(fastest->trail->size(), 30u) << "so far back reaches the strongest blur at 60 Hz";
   for (std::size_t i = 1; i < fastest->trail->size(); ++i)
@@ -199,6 +200,15 @@ TEST(Band, holdsNineOfTenImagesThatSeveralLeversMove) {
   EXPECT_LT(bandOf(0).timeBand, 0.01);
   EXPECT_GT(bandOf(0.1).timeBand, 0.05);
   EXPECT_LT(bandOf(0.1).timeBand, 0.3) << "each image is also off by what its row is";
+}
+
+TEST(Losses, countWhatLiesBeyondTheRestingImageAsTheRootOfTheSumOfSquares) {
+  Losses losses(0.02);
+  losses.add(0.05);
+  losses.add(0.06);
+  losses.add(0.01);  // a lever that does nothing, or that hides what rests
+  EXPECT_NEAR(losses.error(), 0.02 + 0.05, 1e-12);
+  EXPECT_EQ(Losses(0.02).error(), 0.02);
 }
 
 TEST(ErrorStatistic, aFlightAndItsImagesAreJudgedAsTheyAreDrawn) {
